@@ -10,20 +10,18 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from textwrap import wrap
-from typing import Any
 
 from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.next_tests.fixed_orders import band
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words import sentences, unexplained, verdict
-from asphalt_nscd.diagnosis.words.sentences import cause_words, doubtful, not_used, odd
+from asphalt_nscd.diagnosis.words.sentences import Content, cause_words, doubtful, not_used, odd
 from asphalt_nscd.diagnosis.written import UNDETERMINED
 from asphalt_nscd.files.words import counted, joined, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 from asphalt_nscd.measurements.kinds import UNKNOWN
 
-Content = Mapping[str, Any]
 Rows = list[tuple[str, list[str]]]
 
 WIDTH, LABEL = 100, 16  # columns of a terminal, and those of them for labels
@@ -31,6 +29,14 @@ MOST = 4  # sentences of a row; a reader finds the others in the reasons
 PARTS = 2  # of what stays unexplained
 FEW = 6  # specimens that are named one by one
 MORE = "{} more: see the reasons."
+TYPE_NOT_GIVEN = (
+    "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. Say whether it "
+    "was bending or tension-compression: by --measured-in, or in the menu of the page."
+)
+TEMPERATURES_TAKEN = (
+    "All this takes the recorded temperatures for right. Some are off their target: see Check first."
+)
+NO_QUALITY_COLUMNS = "There are no quality columns: tests are judged by modulus and phase alone."
 
 
 def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
@@ -83,12 +89,11 @@ def text(content: Content) -> str:
     str
         Labels in the first column; a blank line before the next tests and after them.
     """
-    told, lines = rows(content), []
-    labels = [label for label, _ in told]
-    after_orders = labels[labels.index("Next tests") + 1 :][:1] if "Next tests" in labels else []
+    told, lines, above = rows(content), [], ""
     for label, said in told:
-        if label == "Next tests" or label in after_orders:
+        if "Next tests" in (label, above):
             lines.append("")
+        above = label
         for k, sentence in enumerate(said):
             first = f"{label if k == 0 else '':{LABEL}}"
             lines += wrap(
@@ -120,15 +125,12 @@ def sure(rung: Content) -> bool:
 
 def _told(rungs: list[Content], content: Content, certain: bool) -> list[str]:
     """Named causes that are certain, or those that are not and improve the fit."""
-    return [
-        _fault(rung, content)
-        for rung in rungs
-        if sure(rung) == certain and (certain or not sentences.worsens(rung))
-    ]
+    alike = [rung for rung in rungs if sure(rung) == certain]
+    return [_fault(rung, content) for rung in alike if certain or not sentences.worsens(rung)]
 
 
 def _sentence(words: str) -> str:
-    return f"{words[:1].upper()}{words[1:]}".rstrip(".") + "."
+    return sentences.capital(words).rstrip(".") + "."
 
 
 def _few(said: list[str]) -> list[str]:
@@ -151,23 +153,18 @@ def _tests(content: Content) -> list[str]:
 def _notes(content: Content) -> list[str]:
     """What a reader must know before all else."""
     read = content.get("reading", {})
-    said = [verdict.mixes(content), verdict.files(content)]
-    if read.get("test_type") == UNKNOWN:
-        said.append(
-            "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. "
-            "Say whether it was bending or tension-compression: by --measured-in, or in the menu of the page."
-        )
-    if read.get("off_target"):
-        said.append(
-            "All this takes the recorded temperatures for right. Some are off their target: see Check first."
-        )
-    if content.get("origin", "measured") != "measured":
-        said += sentences.origin(content)
-    if read.get("test_type") == "tension-compression" and not read.get("quality_columns", True):
-        said.append("There are no quality columns: tests are judged by modulus and phase alone.")
-    if read.get("not_tested"):
-        said.append(_sentence(f"not tested: {joined(read['not_tested'])}"))
-    return [one for one in said if one]
+    no_columns = read.get("test_type") == "tension-compression" and not read.get("quality_columns", True)
+    gaps = joined(read.get("not_tested", []))
+    said = [
+        verdict.mixes(content),
+        verdict.files(content),
+        TYPE_NOT_GIVEN * (read.get("test_type") == UNKNOWN),
+        TEMPERATURES_TAKEN * bool(read.get("off_target")),
+        *(sentences.origin(content) if content.get("origin", "measured") != "measured" else []),
+        NO_QUALITY_COLUMNS * no_columns,
+        f"Not tested: {gaps}." * bool(gaps),
+    ]
+    return list(filter(None, said))
 
 
 def _data(content: Content) -> list[str]:
@@ -194,15 +191,11 @@ def _data(content: Content) -> list[str]:
 
 def _no_fault(content: Content, possible: bool, effects: bool) -> list[str]:
     """That none is certain, and how many temperatures certainty lacks; effects: whether any of the mix is certain."""
-    odd = [
-        one
-        for key in ("odd_phases", "odd_temperatures", "contradictory_isotherms")
-        for one in content.get(key, [])
-    ]
-    checks = any("probability" in one for one in odd)
+    confined = ("odd_phases", "odd_temperatures", "contradictory_isotherms")
+    checks = any("probability" in one for key in confined for one in content.get(key, []))
     beside = ["what is to be checked first"] * checks + ["the effect below"] * effects
     said = "None is certain" if possible else "None found" + f" beside {joined(beside)}" * bool(beside)
-    at = len(content.get("reading", {}).get("isotherms_C", []))
+    at = len(sentences.isotherms(content))
     if 0 < at < LEAST_ISOTHERMS:
         there = "is" if at == 1 else "are"
         said += (
@@ -217,26 +210,21 @@ def _fault(rung: Content, content: Content) -> str:
     everywhere = " in all tests" * (rung["where"] is None)
     of_the_mix = rung["cause"] in verdict.OF_THE_MIX
     meaning = _sentence(rung["sentence"]) if of_the_mix else sentences.meaning(rung).strip()
-    said = _sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")
-    if not sure(rung):
-        meaning = f"If so, {meaning[:1].lower()}{meaning[1:]}" if meaning else ""
-    said = " ".join(filter(None, [said, meaning]))
+    said = [_sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")]
+    taken_off = _taken_off(rung, content)
     if not sure(rung):
         same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
-        if same:
-            others = joined(list(map(sentences.in_words, same)), "or")
-            return f"{said} Not certain: {others} fits as well.{_probability(rung)}"
-        said += _probability(rung)
-        return f"{said} law.json is corrected for it all the same." if _taken_off(rung, content) else said
-    if of_the_mix:
-        return f"{said} law.json is free of it." if _taken_off(rung, content) else said
-    correction = verdict.correction(rung)
-    return f"{said} Correction: {correction}." if correction else said
-
-
-def _probability(rung: Content) -> str:
-    """How likely a name is that is not certain."""
-    return f" Its probability is {sentences.probability(rung)}." if "probability" in rung else ""
+        others = joined(list(map(sentences.in_words, same)), "or")
+        said += [f"If so, {meaning[:1].lower()}{meaning[1:]}"] * bool(meaning)
+        said += [f"Not certain: {others} fits as well."] * bool(same)
+        said += [f"Its probability is {sentences.probability(rung)}."] if "probability" in rung else []
+        said += ["law.json is corrected for it all the same."] * (taken_off and not same)
+    elif of_the_mix:
+        said += [meaning, "law.json is free of it." * taken_off]
+    else:
+        correction = verdict.correction(rung)
+        said += [meaning, f"Correction: {correction}." * bool(correction)]
+    return " ".join(filter(None, said))
 
 
 def _taken_off(rung: Content, content: Content) -> bool:
@@ -245,13 +233,9 @@ def _taken_off(rung: Content, content: Content) -> bool:
 
 def _not_taken_off(content: Content, possible: bool) -> list[str]:
     """That law.json holds what is not certain, where no such cause was taken off."""
-    told = possible and "law_misses" in content
     taken_off = any(_taken_off(rung, content) for rung in verdict.faults(content) if not sure(rung))
-    return (
-        ["The master curve in law.json is not corrected for possible faults."]
-        if told and not taken_off
-        else []
-    )
+    told = possible and "law_misses" in content and not taken_off
+    return ["The master curve in law.json is not corrected for possible faults."] * told
 
 
 def _if_kept(content: Content) -> list[str]:
@@ -305,9 +289,7 @@ def _what_clears(content: Content) -> list[str]:
     """The result of a check that makes doubtful tests usable."""
     broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
     trust = content.get("trust", {"check": 0})
-    if not trust["check"]:
-        return []
-    if broken and trust.get("check_at_C") == broken:
+    if not trust["check"] or (broken and trust.get("check_at_C") == broken):
         return []
     return [
         f"Repeat {'any other' if broken else 'a'} doubtful test after the check. If both agree"
@@ -320,9 +302,8 @@ def _within_scatter(content: Content) -> str:
     within = (content.get("repeatability") or {}).get("within")
     if within is None:
         return ""
-    return (
-        f" within {2.8 * within['E_percent']:.2g} % in |E*| and {2.8 * within['phase_deg']:.2g} deg in phase"
-    )
+    modulus, phase = (f"{2.8 * within[part]:.2g}" for part in ("E_percent", "phase_deg"))
+    return f" within {modulus} % in |E*| and {phase} deg in phase"
 
 
 def _where_exceeded(above: list[Content], content: Content) -> str:
@@ -352,17 +333,14 @@ def _contradictions(found: list[Content]) -> list[str]:
     """Where isotherms contradict themselves most, what to check, and which tests to use then."""
     again = "then test there again. If phase and slope then agree, use the new tests in place of the old."
     turned = [one for one in found if "offset_deg" in one]
-    found = [one for one in found if one not in turned]
-    known = [one for one in found if "worst_deg" in one]
     said = [
         f"{one['temperature_C']:g} degC: |E*| and phase contradict each other. Check strain and machine, {again}"
         for one in found
-        if one not in known  # of a file written before
+        if one not in turned and "worst_deg" not in one  # of a file written before
     ]
-    for side, here in (
-        ("higher", [one for one in known if one["worst_deg"] > 0.0]),
-        ("lower", [one for one in known if one["worst_deg"] <= 0.0]),
-    ):
+    for side in ("higher", "lower"):
+        known = [one for one in found if one not in turned and "worst_deg" in one]
+        here = [one for one in known if (one["worst_deg"] > 0.0) == (side == "higher")]
         if here:
             at = joined([f"{one['temperature_C']:g}" for one in here])
             most = joined([f"{abs(one['worst_deg']):.1f} deg (at {one['worst_Hz']:g} Hz)" for one in here])
@@ -377,12 +355,13 @@ def _contradictions(found: list[Content]) -> list[str]:
 
 def _scatter(content: Content) -> list[str]:
     found = content.get("repeatability") or {}
+    ways = {
+        "between": "between specimens",
+        "within": "within one specimen, after removing its mean deviation",
+    }
     said = [
         f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase"
-        for way, words in (
-            ("between", "between specimens"),
-            ("within", "within one specimen, after removing its mean deviation"),
-        )
+        for way, words in ways.items()
         if found.get(way) is not None
     ]
     return [f"Standard deviation {'; '.join(said)}."] if said else []
@@ -398,11 +377,11 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
         return [" ".join([_sentence(verdict.on_simulation(content, left)), *warning])]
     modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
     title = next((one["title"] for one in content.get("laws", []) if one["taken"]), "2S2P1D")
-    whom = "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
     said = [
-        f"law.json, a {title} master curve, is off {whom} by {modulus} % in |E*| and {phase} % of the phase angle."
+        f"law.json, a {title} master curve, is off {verdict.held_against(content)} by {modulus} % in |E*| and {phase} "
+        "% of the phase angle."
     ]
-    if verdict.alone(content):
+    if sentences.alone(content):
         said.append("Without replicates nobody knows how much of that is scatter.")
     named = [*verdict.faults(content), *verdict.effects(content)]
     corrected = any(rung.get("taken_off", True) for rung in named)

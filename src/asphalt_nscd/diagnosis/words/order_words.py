@@ -17,7 +17,7 @@ from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
 from asphalt_nscd.diagnosis.next_tests.information import Asked
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Sweep
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.words.sentences import an
+from asphalt_nscd.diagnosis.words.sentences import an, capital
 from asphalt_nscd.files.words import joined
 
 REASONS = 3
@@ -149,14 +149,10 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
     list of str
         Sentences.
     """
-    told = {
-        k: strengths
-        for k, strengths in order.helps.items()
-        if questions[k].kind not in ("repeat", "level", "linear")
-    }
-    helped = [questions[k] for k in order.helps]
+    helped = [(questions[k], *strengths) for k, strengths in order.helps.items()]
+    tested = [one for one, *_ in helped if one.at(order)]
     here = f"{order.sweep.temperature:g} degC"
-    again = sorted(one.about for one in helped if one.kind == "repeat" and one.at(order))
+    again = sorted(one.about for one in tested if one.kind == "repeat")
     found = []
     if again:
         several = len(again) > 1
@@ -170,19 +166,19 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
             + " If the new test agrees with the other frequencies, use the new test."
         )
     found += [
-        f"{one.about[:1].upper()}{one.about[1:]}. If the new {one.other}, the machine, the temperature, the "
-        "dimensions or the mounting was at fault: use the new tests."
-        for one in helped
-        if one.kind == "level" and one.at(order)
+        f"{capital(one.about)}. If the new {one.other}, the machine, the temperature, the dimensions or the mounting "
+        "was at fault: use the new tests."
+        for one in tested
+        if one.kind == "level"
     ]
     found += [
         f"What stays unexplained at {here} ({one.other}) should fall to about half if the mix is not linear. If the "
         "machine is at fault, it should stay or grow."
-        for one in helped
-        if one.kind == "linear" and one.at(order) and order.sweep.half_strain
+        for one in tested
+        if one.kind == "linear" and order.sweep.half_strain
     ]
-    found += [_reason(questions[k], *told[k]) for k in told if questions[k].kind != "reach"]
-    found += _within_reach([(questions[k], *told[k]) for k in told if questions[k].kind == "reach"], context)
+    found += [_reason(*one) for one in helped if one[0].kind in ("kept", "metal", "apart")]
+    found += _within_reach([one for one in helped if one[0].kind == "reach"], context)
     return [reason for reason in found if reason][:REASONS]
 
 
@@ -229,11 +225,6 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
     return ""
 
 
-def _upper(words: str) -> str:
-    """With a capital first; units keep theirs."""
-    return f"{words[:1].upper()}{words[1:]}"
-
-
 def _frequencies(tested: Iterable[float | None]) -> str:
     """`10 and 25 Hz`."""
     return f"{joined([f'{f:g}' for f in sorted({f for f in tested if f is not None})])} Hz"
@@ -250,19 +241,16 @@ def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context)
         if after - before >= NOTICEABLE:
             causes.setdefault(one.about, []).append((one.place, before, after))
     without = "with only the steps above" if context.later else "without it"
-    return [
-        f"If there is {about}{_places([place for place, _, _ in found])}, this test finds it with a chance of "
-        f"{_chances([after for _, _, after in found])}; {without} the chance is "
-        f"{_chances([before for _, before, _ in found])}{_depending([place for place, _, _ in found])}."
-        for about, found in causes.items()
-    ]
-
-
-def _depending(places: Sequence[Place]) -> str:
-    """On what a range of chances depends; nothing for a cause at one place or none."""
-    if len(places) < 2:
-        return ""
-    return f", depending on the {'specimen' if isinstance(places[0], str) else 'temperature'}"
+    said = []
+    for about, found in causes.items():
+        places, now, then = (list(values) for values in zip(*found, strict=True))
+        on = "specimen" if isinstance(places[0], str) else "temperature"
+        depending = f", depending on the {on}" * (len(places) > 1)
+        said.append(
+            f"If there is {about}{_places(places)}, this test finds it with a chance of {_chances(then)}; {without} "
+            f"the chance is {_chances(now)}{depending}."
+        )
+    return said
 
 
 def _places(places: Sequence[Place]) -> str:
@@ -280,25 +268,19 @@ def _chances(values: Sequence[float]) -> str:
 
 
 def _reason(one: Open, before: float, after: float) -> str:
+    """What tests would do for one question; empty where that is little."""
     if one.kind == "kept":
         now, then = np.sqrt(before), np.sqrt(after)
-        if then - now < CLEARER:
-            return ""
-        return (
-            f"The {one.about} should then be found without {one.other} too, by {then:.1f} standard errors (now "
-            f"{now:.1f})."
-        )
+        found = f"The {one.about} should then be found without {one.other} too, by {then:.1f} standard errors"
+        return f"{found} (now {now:.1f})." * bool(then - now >= CLEARER)
     if one.kind == "metal":
         return f"Metal shows only what the machine adds. The {one.about} must show there as {one.other}."
     if before >= CLEAR and not one.alike:
         return ""
-    now = (
-        f"{_upper(an(one.other))} fits these tests as well as the {one.about}."
-        if one.alike
-        else f"{_upper(an(one.other))} would look much the same. These tests speak for the {one.about}, but not "
-        "beyond doubt."
-    )
-    return f"{now} This test should {'decide' if after >= CLEAR else 'make it clearer'}."
+    doubt = f"would look much the same. These tests speak for the {one.about}, but not beyond doubt."
+    looks = f"fits these tests as well as the {one.about}." if one.alike else doubt
+    clearer = "decide" if after >= CLEAR else "make it clearer"
+    return f"{capital(an(one.other))} {looks} This test should {clearer}."
 
 
 def in_a_sentence(one: Order, done: Observations) -> str:

@@ -39,6 +39,10 @@ ORIGINS = {
     "synthetic": "The data are synthetic: what is found here says nothing of a mix or of a rig.",
 }
 LAW = "relaxation_spectrum"
+BURGERS_MISS = (
+    "Established: a Burgers law at each temperature is not enough. The chance that scatter alone makes it miss by so "
+    "much is"
+)
 RANKED = "In this order: checks, doubtful tests again, then the tests that tell most per hour."
 ENOUGH = "four temperatures, three frequencies and two specimens"  # for a name to be established
 WORSE = 1.05  # times the misfit without a cause, from which it is told that the cause does not help
@@ -123,11 +127,8 @@ def without_doubtful(content: Content) -> str:
     str
         A sentence.
     """
-    return (
-        _changed(content, "without_doubtful", "If the doubtful tests were left out")
-        if doubtful(content)
-        else ""
-    )
+    when = "If the doubtful tests were left out"
+    return _changed(content, "without_doubtful", when) if doubtful(content) else ""
 
 
 def only_with_suspects(content: Content) -> str:
@@ -143,40 +144,39 @@ def only_with_suspects(content: Content) -> str:
     str
         A sentence.
     """
-    return (
-        _changed(content, "with_suspects", "With these tests")
-        if any(_names_changed(content, "with_suspects"))
-        else ""
-    )
+    return _changed(content, "with_suspects", "With these tests", alike="")
 
 
-def _names_changed(content: Content, key: str) -> tuple[list[str], list[str]]:
-    """Causes that another choice of tests would name, and those that it would not."""
-    then = content.get(key)
-    if then is None:
-        return [], []
-    now, other = _faults_then(content, then)
-    return [words for words in other if words not in now], [words for words in now if words not in other]
-
-
-def _faults_then(content: Content, then: Content) -> tuple[list[str], list[str]]:
-    """Causes named, and those that another choice of tests would name; a law is no fault."""
-    return (
-        [cause_words(rung) for rung in content["ladder"] if rung["cause"] not in (BOND_MAPPING, LAW)],
-        [cause_words(rung) for rung in then["causes"] if rung["cause"] != LAW],
-    )
-
-
-def _changed(content: Content, key: str, when: str) -> str:
-    """What another choice of tests would name; empty where there was none."""
+def _changed(content: Content, key: str, when: str, alike: str = "name the same causes") -> str:
+    """What another choice of tests would name; alike: if the same, a law is no fault. Empty where there was none."""
     then = content.get(key)
     if then is None:
         return ""
-    more, less = (joined(list(map(an, names))) for names in _names_changed(content, key))
-    kept = set.intersection(*map(set, _faults_then(content, then)))
-    changes = [f"{'also ' * bool(kept)}name {more}"] if more else []
-    changes += [f"no longer name {less}"] if less else []
-    return f"{when}, the diagnosis would {joined(changes) or 'name the same causes'}."
+    now = [cause_words(rung) for rung in content["ladder"] if rung["cause"] not in (BOND_MAPPING, LAW)]
+    other = [cause_words(rung) for rung in then["causes"] if rung["cause"] != LAW]
+    more, less = [an(one) for one in other if one not in now], [an(one) for one in now if one not in other]
+    changes = [f"{'also ' * (len(more) < len(other))}name {joined(more)}"] if more else []
+    changes += [f"no longer name {joined(less)}"] if less else []
+    would = joined(changes) or alike
+    return f"{when}, the diagnosis would {would}." if would else ""
+
+
+def named(content: Content, cause: str) -> bool:
+    """Whether a cause, or the law or the bonds, is a rung of the ladder.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: ladder.
+    cause : str
+        Its name.
+
+    Returns
+    -------
+    bool
+        At any place.
+    """
+    return any(rung["cause"] == cause for rung in content["ladder"])
 
 
 def place_of_test(one: Content) -> str:
@@ -266,10 +266,9 @@ def law_of_the_mix(content: Content) -> tuple[str, str] | None:
         The shift with its parameters, and how sure it is.
     """
     for rung in content["ladder"]:
-        if rung["cause"] == "relaxation_spectrum":
-            shift = _shift(rung, widened(content))
-            sure = _sure(rung, content)
-            return f"Time-temperature shift of the free master curve: {shift}".removesuffix(": "), sure
+        if rung["cause"] == LAW:
+            told = f"Time-temperature shift of the free master curve: {_shift(rung, widened(content))}"
+            return told.removesuffix(": "), _sure(rung, content)
     return None
 
 
@@ -282,9 +281,8 @@ def _shift(rung: Content, factor: float) -> str:
         if name != "reference_temperature"
     ]
     if "reference_temperature" in found and constants:
-        constants.append(
-            f"reference temperature {three_digits(found['reference_temperature']['value'])} degC"
-        )
+        reference = three_digits(found["reference_temperature"]["value"])
+        constants.append(f"reference temperature {reference} degC")
     return ", ".join(constants)
 
 
@@ -307,7 +305,7 @@ def causes(content: Content) -> list[tuple[str, str]]:
             f"{meaning(rung)}{_sure(rung, content)}{_not_in_answer(rung)}{_to_confirm(rung)}",
         )
         for rung in content["ladder"]
-        if rung["cause"] != "relaxation_spectrum"
+        if rung["cause"] != LAW
     ]
 
 
@@ -353,38 +351,29 @@ def _sure(rung: Content, content: Content) -> str:
         return f"Not certain: {'. '.join([first[:1].lower() + first[1:], *more])}."
     if not rung.get("established", True):
         return f"Not certain: {lacking(content)}."
-    if rung["cause"] != "relaxation_spectrum" and content.get("discrepancy"):
+    if rung["cause"] == LAW:  # the Burgers laws are those of the simulated paper
+        return f"{BURGERS_MISS} {chance}." if named(content, BOND_MAPPING) else ""
+    if content.get("discrepancy"):
         return f"Established{likely}. It stays whichever isotherm, frequency or specimen is left out."
-    if rung["cause"] != "relaxation_spectrum":
-        return f"Established{likely}: the chance that scatter alone produces it is {chance}."
-    if all(one["cause"] != BOND_MAPPING for one in content["ladder"]):
-        return ""  # the Burgers laws are those of the simulated paper
-    return (
-        "Established: a Burgers law at each temperature is not enough. The chance that scatter alone makes it miss by "
-        f"so much is {chance}."
-    )
+    return f"Established{likely}: the chance that scatter alone produces it is {chance}."
 
 
 def _doubts(rung: Content, content: Content) -> list[str]:
     """Why a name is not certain, a sentence each without its full stop."""
     doubts = []
-    named = {name_at(one["cause"], one["where"]) for one in content["ladder"]}
-    also = [name for name in rung["as_good"] if name in named]
-    others = [name for name in rung["as_good"] if name not in named]
+    known = {name_at(one["cause"], one["where"]) for one in content["ladder"]}
+    also = joined([in_words(name) for name in rung["as_good"] if name in known])
+    others = joined([in_words(name) for name in rung["as_good"] if name not in known], "or")
     if others:
-        doubts.append(
-            f"{joined(list(map(in_words, others)), 'or')} fits as well; these tests do not say which"
-        )
+        doubts.append(f"{others} fits as well; these tests do not say which")
     if also:
-        doubts.append(f"{joined(list(map(in_words, also)))} would have fitted as well before both were named")
+        doubts.append(f"{also} would have fitted as well before both were named")
     if rung.get("hangs_on"):
-        left_out = f"{joined(rung['hangs_on'], 'or')} is left out"
-        doubts.append(f"It is no longer found if {left_out}")
+        doubts.append(f"It is no longer found if {joined(rung['hangs_on'], 'or')} is left out")
     doubts += rung.get("doubts", [])
     if rung.get("probability", 1.0) < NAMED:
         doubts.append(f"Its probability is {probability(rung)}, and certainty takes {100.0 * NAMED:.0f} %")
-    isotherms = content.get("reading", {}).get("isotherms_C", [])
-    if doubts and (0 < len(isotherms) < LEAST_ISOTHERMS or not content.get("tested", True)):
+    if doubts and (0 < len(isotherms(content)) < LEAST_ISOTHERMS or not content.get("tested", True)):
         doubts.append(f"Besides, {lacking(content)}")
     return doubts
 
@@ -436,15 +425,11 @@ def lacking(content: Content) -> str:
         Clauses on temperatures, specimens and frequencies; if it lacks none of them, what certainty
         takes.
     """
-    at = len(content.get("reading", {}).get("isotherms_C", []))
-    stated = content.get("provenance", {}).get("scatter_stated")
-    few = []
+    at, few = len(isotherms(content)), []
     if 0 < at < LEAST_ISOTHERMS:
-        few.append(
-            f"only {counted(at, 'temperature')} {'was' if at == 1 else 'were'} tested, and certainty takes "
-            f"{LEAST_ISOTHERMS}"
-        )
-    if not (content.get("scatter", {}).get("from_replicates", True) or stated):
+        tested = f"{counted(at, 'temperature')} {'was' if at == 1 else 'were'} tested"
+        few.append(f"only {tested}, and certainty takes {LEAST_ISOTHERMS}")
+    if alone(content):
         few.append("no condition was tested on a second specimen")
     elif not content.get("tested", True):
         few.append("only two frequencies were tested, and certainty takes 3")
@@ -465,9 +450,41 @@ def in_words(name: str) -> str:
         As `cause_words` gives it.
     """
     cause, _, place = name.partition(" @ ")
-    if CONFINED_TO.get(cause) == "temperature_C":
-        return cause_words({"cause": cause, "where": float(place) if place else None})
-    return cause_words({"cause": cause, "where": place or None})
+    where = float(place) if place and CONFINED_TO.get(cause) == "temperature_C" else place or None
+    return cause_words({"cause": cause, "where": where})
+
+
+def alone(content: Content) -> bool:
+    """Whether nothing tells the scatter: one specimen, and none was stated.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: scatter and provenance.
+
+    Returns
+    -------
+    bool
+        If True, the scatter is what a smooth law leaves.
+    """
+    known = content.get("scatter", {}).get("from_replicates", True)
+    return not (known or content.get("provenance", {}).get("scatter_stated"))
+
+
+def isotherms(content: Content) -> list[float]:
+    """Isotherms tested [degC]; none where a file does not say.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: reading.
+
+    Returns
+    -------
+    list of float
+        Nominal temperatures.
+    """
+    return list(content.get("reading", {}).get("isotherms_C", []))
 
 
 def more_than_scatter(content: Content) -> bool:
@@ -576,6 +593,22 @@ def cause_words(rung: Content) -> str:
     if where is None:
         return words
     return f"{words} of {specimen_named(where)}" if isinstance(where, str) else f"{words} at {where:g} degC"
+
+
+def capital(words: str) -> str:
+    """With a capital first; units keep theirs.
+
+    Parameters
+    ----------
+    words : str
+        The beginning of a sentence.
+
+    Returns
+    -------
+    str
+        All after the first letter as it was.
+    """
+    return f"{words[:1].upper()}{words[1:]}"
 
 
 def an(words: str) -> str:

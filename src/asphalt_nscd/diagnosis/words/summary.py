@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from tabulate import tabulate
 
 from asphalt_nscd.diagnosis.words import brief, sentences, table_rows, unexplained, verdict
-
-Content = Mapping[str, Any]
+from asphalt_nscd.diagnosis.words.sentences import Content
 
 
 def answer(content: Content) -> str:
@@ -45,6 +43,8 @@ def summary(content: Content) -> str:
     read = content.get("reading", {"notes": []})
     law, named = sentences.law_of_the_mix(content), sentences.causes(content)
     simulated, two_laws = verdict.on_simulation(content), verdict.two_laws(content)
+    none_named = list(filter(None, [unexplained.no_cause(content)]))
+    scatter, limits = table_rows.scatter_rows(content), table_rows.measured_limits(content)
     parts = [
         ("", [answer(content)]),
         ("Why tests are left out", _suspects(content)),
@@ -52,38 +52,28 @@ def summary(content: Content) -> str:
             "Law of the mix",
             [
                 *([verdict.TWO_LAWS] if two_laws else []),
-                f"{simulated[:1].upper()}{simulated[1:]}",
+                sentences.capital(simulated),
                 *two_laws,
                 *([f"{law[0]}. {law[1]}".rstrip()] if law else []),
                 *verdict.beyond_the_tests(content),
             ],
         ),
-        ("Causes", [*(f"{cause}. {sure}" for cause, sure in named), *_on_others(content)]),
+        ("Causes", [f"{cause}. {sure}" for cause, sure in named] + none_named),
         ("What stays unexplained", _left(content)),
         ("Why these tests next", _orders(content)),
-        ("Scatter", _scatter(content)),
-        ("Limits, stated and measured", _limits(content)),
+        ("Scatter", _table(table_rows.SCATTER_CAPTION, table_rows.SCATTER_HEAD, scatter)),
+        ("Limits, stated and measured", _table(table_rows.LIMITS_STATED, table_rows.LIMITS_HEAD, limits)),
         ("Remarks", content["notes"]),
         ("What was read", read["notes"]),
     ]
-    return "\n\n".join(_part(title, lines) for title, lines in parts if lines)
-
-
-def _part(title: str, lines: Sequence[str]) -> str:
-    return "\n".join([*([title.upper()] if title else []), *lines])
-
-
-def _on_others(content: Content) -> list[str]:
-    """Of the causes that were not named."""
-    return list(filter(None, [unexplained.no_cause(content)]))
+    return "\n\n".join("\n".join([*[title.upper()] * bool(title), *lines]) for title, lines in parts if lines)
 
 
 def _suspects(content: Content) -> list[str]:
     lines = []
     for one in sentences.not_used(content):
-        where = sentences.place_of_test(one)
-        lines.append(f"{where[:1].upper()}{where[1:]}:")
-        lines += [f"  {reason}" for reason in one["reasons"]]
+        where = sentences.capital(sentences.place_of_test(one))
+        lines += [f"{where}:", *(f"  {reason}" for reason in one["reasons"])]
     return lines + list(filter(None, [sentences.with_suspects(content), sentences.without_doubtful(content)]))
 
 
@@ -102,22 +92,5 @@ def _orders(content: Content) -> list[str]:
     return [*lines, f"{sentences.RANKED} {found['costs']}"] if lines else []
 
 
-def _limits(content: Content) -> list[str]:
-    rows = table_rows.measured_limits(content)
-    if not rows:
-        return []
-    return [
-        table_rows.LIMITS_STATED,
-        *tabulate(rows, table_rows.LIMITS_HEAD, disable_numparse=True).splitlines(),
-    ]
-
-
-def _scatter(content: Content) -> list[str]:
-    rows = table_rows.scatter_rows(content)
-    if not rows:
-        return []
-    table = tabulate(rows, table_rows.SCATTER_HEAD, disable_numparse=True)
-    return [
-        table_rows.SCATTER_CAPTION,
-        *table.splitlines(),
-    ]
+def _table(caption: str, head: Sequence[str], rows: list[list[str]]) -> list[str]:
+    return [caption, *tabulate(rows, head, disable_numparse=True).splitlines()] if rows else []

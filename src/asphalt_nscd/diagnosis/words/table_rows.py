@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
+from asphalt_nscd.diagnosis.words.sentences import Content
 from asphalt_nscd.diagnosis.written import shown, three_digits
-
-Content = Mapping[str, Any]
 
 
 def scatter_rows(content: Content) -> list[list[str]]:
@@ -47,11 +43,10 @@ def measured_limits(content: Content) -> list[list[str]]:
     for cause, by_times in content.get("measured_limits", {}).items():
         limit = content["detection_limits"][cause]
         value, unit = shown(limit["value"], limit["unit"])
-        row = [cause.replace("_", " "), f"{three_digits(value)} {unit}".rstrip()]
-        for times in ("1", "2", "3"):
-            one = by_times.get(times)
-            row.append("" if one is None else f"{one['named']} of {one['tried']}")
-        rows.append([*row, str(sum(one["other_named"] for one in by_times.values()))])
+        stated = [cause.replace("_", " "), f"{three_digits(value)} {unit}".rstrip()]
+        tried = [by_times.get(times) for times in ("1", "2", "3")]
+        found = ["" if one is None else f"{one['named']} of {one['tried']}" for one in tried]
+        rows.append([*stated, *found, str(sum(one["other_named"] for one in by_times.values()))])
     return rows
 
 

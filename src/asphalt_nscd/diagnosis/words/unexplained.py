@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from asphalt_nscd.diagnosis.screening import levels
-from asphalt_nscd.diagnosis.words.sentences import Content, more_than_scatter, odd, typed
+from asphalt_nscd.diagnosis.words.sentences import Content, isotherms, more_than_scatter, odd, typed
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
@@ -70,8 +70,7 @@ def _sizes(limit: Content, content: Content) -> str:
     if not places:
         return _size(limit["value"], limit["unit"])
     sizes = [f"{_size(places[at], limit['unit'])} at {float(at):g} degC" for at in sorted(places, key=float)]
-    tested = content.get("reading", {}).get("isotherms_C", [])
-    never = [f"{t:g}" for t in tested if t not in map(float, places)]
+    never = [f"{t:g}" for t in isotherms(content) if t not in map(float, places)]
     return joined(sizes) + (f", and of any size at {joined(never)} degC" if never else "")
 
 
@@ -98,7 +97,7 @@ def left(content: Content) -> list[str]:
         return [*(_part_left(one, content) for one in parts), *remarks(content)]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
-        if pattern["pattern"].count("slope over temperature") and _one_isotherm(content):
+        if pattern["pattern"].count("slope over temperature") and len(isotherms(content)) == 1:
             return _largest(content)
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
     return []
@@ -128,10 +127,6 @@ def remarks(content: Content, most: int = LARGEST) -> list[str]:
     if 1 < specimens < MANY_SPECIMENS and any(one["specimen"] is not None for one in largest):
         said.append(f"{specimens} specimens are too few to tell which one is odd")
     return said
-
-
-def _one_isotherm(content: Content) -> bool:
-    return len(content.get("reading", {}).get("isotherms_C", [])) == 1
 
 
 def _largest(content: Content) -> list[str]:

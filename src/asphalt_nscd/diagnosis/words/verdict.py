@@ -9,30 +9,24 @@ from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
-from asphalt_nscd.diagnosis.words.sentences import (
-    Content,
-    an,
-    cause_words,
-    more_than_scatter,
-    not_used,
-    odd,
-)
+from asphalt_nscd.diagnosis.words import sentences
+from asphalt_nscd.diagnosis.words.sentences import LAW, Content, an, cause_words, named, not_used, odd
 from asphalt_nscd.diagnosis.written import mean_averages, three_digits
 from asphalt_nscd.files.words import joined
 from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
 TESTS_OF = TEST_TYPES | {UNKNOWN: "tests of a kind that was not said"}
-OF_THE_MIX = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to} | {
-    "relaxation_spectrum",
-    BOND_MAPPING,
-}
+EFFECTS = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to}
+OF_THE_MIX = EFFECTS | {LAW, BOND_MAPPING}
 SIMPLER = "one Burgers law for each temperature"
-COMMON = (
-    "the free master curve"  # everywhere the name of the law of the diagnosis; the other is called law.json
-)
+COMMON = "the free master curve"  # the name of the law of the diagnosis; the other is called law.json
 TWO_LAWS = (
     f"Two laws are fitted. The diagnosis uses {COMMON}, a master curve of any smooth shape. law.json holds a law of "
     "few parameters (2S2P1D unless --law says another) for use in other programs."
+)
+TWO_FREQUENCIES = (
+    "Two frequencies cannot judge a law: a Burgers law fits them exactly, whatever is wrong. Test at three frequencies "
+    "or more."
 )
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
@@ -89,11 +83,7 @@ def effects(content: Content) -> list[Content]:
     list of mapping
         Rungs in the order in which the ladder took them.
     """
-    return [
-        rung
-        for rung in content["ladder"]
-        if rung["cause"] in OF_THE_MIX - {"relaxation_spectrum", BOND_MAPPING}
-    ]
+    return [rung for rung in content["ladder"] if rung["cause"] in EFFECTS]
 
 
 def correction(rung: Content) -> str:
@@ -151,26 +141,22 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
         holds = _holding(content)
         return f"{SIMPLER} fits these tests to within their scatter{holds or '; nothing is left to explain'}."
     first, last = (mean_averages(rung["gain"]["in_sample"]) for rung in (ladder[0], ladder[-1]))
-    names = ("mre_E_percent", "mre_phase_percent")
-    missed = [last[name]["after"] for name in names] if left is None else [left["E"], left["phase"]]
+    had = [errors["before"] for errors in first.values()]
+    missed = [errors["after"] for errors in last.values()] if left is None else [left["E"], left["phase"]]
     written = three_digits if left is not None or bonded(content) else _two
-    before, after = (
-        [f"{written(error)} %" for error in errors]
-        for errors in ([first[name]["before"] for name in names], missed)
-    )
+    before, after = ([f"{written(error)} %" for error in errors] for errors in (had, missed))
+    worse = _worse(had, missed)
     facets = ["facets for bonds"] if bonded(content) else []
     found = joined([*facets, *(_noun(rung) for rung in ladder if rung["cause"] != BOND_MAPPING)])
     simpler = "this simulation with the bonds of the paper" if facets else _first_law(content)
-    worse = _worse([first[name]["before"] for name in names], missed)
-    missed_by = _whom(content)
+    missed_by = held_against(content)
     if facets or left is not None:
         return (
             f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} the "
             f"simulation misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
         )
-    spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in ladder)
-    law = COMMON if spectrum else simpler
-    found = joined([_noun(rung) for rung in ladder if rung["cause"] != "relaxation_spectrum"])
+    law = COMMON if named(content, LAW) else simpler
+    found = joined([_noun(rung) for rung in ladder if rung["cause"] != LAW])
     these = "this cause" if len(ladder) == 1 else "these causes"
     without = f" Without {these} it misses by {before[0]} and {before[1]}."
     return (
@@ -193,18 +179,17 @@ def two_laws(content: Content) -> list[str]:
         Two paragraphs; empty where one of the two is not fitted.
     """
     misses = content.get("law_misses")
-    spectrum = any(rung["cause"] == "relaxation_spectrum" for rung in content["ladder"])
-    if misses is None or not spectrum or bonded(content):
+    if misses is None or not named(content, LAW) or bonded(content):
         return []
     kept = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung.get("taken_off", True)]
-    them = "is not certain, so law.json is not corrected for it" if len(kept) == 1 else ""
-    them = them or "are not certain, so law.json is not corrected for them"
-    doubtful = f" {joined(kept).capitalize()} {them}." if kept else ""
+    are, them = ("is", "it") if len(kept) == 1 else ("are", "them")
+    not_certain = f"{are} not certain, so law.json is not corrected for {them}."
+    doubtful = f" {joined(kept).capitalize()} {not_certain}" * bool(kept)
     out = levels.places(*odd(content))
     fewer = f", those of law.json without {joined(out)}" if out else ""
     neither = " Tests left out are in neither." * bool(not_used(content))
     return [
-        f"law.json misses {_whom(content)} by {misses['mre_E_percent']:.2g} % in |E*| and "
+        f"law.json misses {held_against(content)} by {misses['mre_E_percent']:.2g} % in |E*| and "
         f"{misses['mre_phase_percent']:.2g} % in the phase.{doubtful}",
         "The two weigh the tests differently. For law.json all tests count alike, |E*| as much as the phase. For "
         f"{COMMON} a test counts less the more it scatters, and a temperature or a specimen that no master curve fits "
@@ -212,8 +197,19 @@ def two_laws(content: Content) -> list[str]:
     ]
 
 
-def _whom(content: Content) -> str:
-    """What a law is held against."""
+def held_against(content: Content) -> str:
+    """What a law is held against.
+
+    Parameters
+    ----------
+    content : mapping
+        Of diagnosis.json: scatter.
+
+    Returns
+    -------
+    str
+        The tests themselves where nothing was repeated.
+    """
     return "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
 
 
@@ -236,13 +232,13 @@ def bonded(content: Content) -> bool:
     bool
         By a rung of the bond mapping.
     """
-    return any(rung["cause"] == BOND_MAPPING for rung in content["ladder"])
+    return named(content, BOND_MAPPING)
 
 
 def _first_law(content: Content) -> str:
     """The law that the first rung begins with: of too few tests no spectrum is told, but causes rest on one."""
     rung = content["ladder"][0]
-    if rung["cause"] == "relaxation_spectrum":
+    if rung["cause"] == LAW:
         return SIMPLER
     first = mean_averages(rung["gain"]["in_sample"])["mre_E_percent"]["before"]
     burgers = list(content["baseline"]["mre_E_percent"].values())
@@ -270,52 +266,30 @@ def _worse(before: Sequence[float], after: Sequence[float]) -> str:
 
 def _cannot_judge(content: Content) -> str:
     """Why tests without a finding do not say that the simulation is right, and what to add."""
-    if content["scatter"]["from_replicates"] or content["provenance"].get("scatter_stated"):
-        return (
-            "Two frequencies cannot judge a law: a Burgers law fits them exactly, whatever is wrong. Test at "
-            "three frequencies or more."
-        )
-    alone = len(content.get("reading", {}).get("specimens", [])) == 1
-    lacking = "One specimen" if alone else "Specimens without a common temperature and frequency"
-    add = "Test a second one at the same conditions" if alone else "Test two at the same conditions"
+    if not sentences.alone(content):
+        return TWO_FREQUENCIES
+    single = len(content.get("reading", {}).get("specimens", [])) == 1
+    lacking = "One specimen" if single else "Specimens without a common temperature and frequency"
     return (
-        f"{lacking} cannot judge a law: nothing was found, but the scatter from test to test is not known. "
-        f"{add}, or state the scatter."
+        f"{lacking} cannot judge a law: nothing was found, but the scatter from test to test is not known. Test "
+        f"{'a second one' if single else 'two'} at the same conditions, or state the scatter."
     )
 
 
 def _beyond_bonds(content: Content) -> str:
     """Whether more than scatter is left, once what the simulated bonds add to their law is taken off."""
-    if not content["tested"] and alone(content):
+    if not content["tested"] and sentences.alone(content):
         return "and nobody knows how much of that is scatter"
-    fits = content["verdict"] == "explained" or not more_than_scatter(content)
-    named = [rung for rung in content["ladder"] if rung["cause"] not in ("relaxation_spectrum", BOND_MAPPING)]
-    sure = all(rung.get("established", True) for rung in named)
+    fits = content["verdict"] == "explained" or not sentences.more_than_scatter(content)
+    causes = [rung for rung in content["ladder"] if rung["cause"] not in (LAW, BOND_MAPPING)]
+    sure = all(rung.get("established", True) for rung in causes)
     within = " within specimens" if content["scatter"]["from_replicates"] else ""
     scatter = "no more than scatter can explain" if fits else f"more than scatter{within} can explain"
     by = "" if sure or not fits else ", but not every cause is certain"
-    by += _holding(content) if fits else "" if named else ", and no cause was found"
+    by += _holding(content) if fits else "" if causes else ", and no cause was found"
     bonds = content["numerics"]["largest_modulus_percent"]
-    if bonds <= content["scatter"]["modulus_percent"]:
-        return f"{scatter}{by}"
-    added = f"of which the simulated bonds add up to {bonds:.1f} % to |E*|"
-    return f"{added}; the rest is {scatter}{by}"
-
-
-def alone(content: Content) -> bool:
-    """Whether nothing tells the scatter: one specimen, and none was stated.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: scatter and provenance.
-
-    Returns
-    -------
-    bool
-        If True, the scatter is what a smooth law leaves.
-    """
-    return not content["scatter"]["from_replicates"] and not content["provenance"].get("scatter_stated")
+    added = f"of which the simulated bonds add up to {bonds:.1f} % to |E*|; the rest is "
+    return f"{added * (bonds > content['scatter']['modulus_percent'])}{scatter}{by}"
 
 
 def _left_out(content: Content) -> tuple[dict[float, float], float] | None:
@@ -372,13 +346,13 @@ def beyond_the_tests(content: Content) -> list[str]:
     coldest, warmest = min(errors), max(errors)
     inner = sorted({*errors} - {coldest, warmest})
     between_them = f"at {inner[0]:g} degC" if len(inner) == 1 else "between them on average"
+    ends = [
+        f"{_two(errors[t])} % at {t:g} degC{' (where these tests are doubtful)' * _wrong(t, content)}"
+        for t in (coldest, warmest)
+    ]
     return [
-        f"Each temperature was also predicted from the others by {COMMON}. |E*| is then off by "
-        + ", ".join(
-            f"{_two(errors[t])} % at {t:g} degC{' (where these tests are doubtful)' * _wrong(t, content)}"
-            for t in (coldest, warmest)
-        )
-        + f" and {_two(between)} % {between_them}."
+        f"Each temperature was also predicted from the others by {COMMON}. |E*| is then off by {', '.join(ends)} and "
+        f"{_two(between)} % {between_them}."
     ]
 
 
