@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from hashlib import sha256
 from itertools import chain
@@ -13,9 +14,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
 from asphalt_nscd.diagnosis.next_tests.sweeps import Costs
 from asphalt_nscd.diagnosis.observed import repeatability
+from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.record import measured_limits, report, reported
 from asphalt_nscd.diagnosis.record.instructions import instructions
@@ -48,27 +51,6 @@ OF_THE_PAPER = (
 STEPS = 5  # read, causes, law, second opinion, next tests
 FEW_DRAWS = 1000  # where a second opinion is asked for
 MATTERING = 0.02  # share of the tests that doubtful ones must have for one
-
-
-@dataclass
-class Steps:
-    """Says how far a diagnosis has come.
-
-    Parameters
-    ----------
-    progress : callable
-        progress(stage, done, total).
-    done : int
-        Steps.
-    """
-
-    progress: Progress
-    done: int = 0
-
-    def step(self) -> None:
-        """One more step is done."""
-        self.done += 1
-        self.progress("Diagnose", self.done, STEPS)
 
 
 @dataclass(frozen=True)
@@ -130,24 +112,19 @@ class Outcome:
         list of str
             Their names.
         """
-        folder = Path(folder)
-        write_table(folder / "residuals.csv", self.residuals)
-        write_table(folder / "causality.csv", self.causality)
-        if self.law is not None:
-            write_json(folder / "law.json", self.law)
-        if self.limits is not None:
-            write_table(folder / "limits.csv", self.limits)
-        for name, table in self.to_report.items():
-            write_table(folder / f"{name}.csv", table)
-        write_json(folder / "diagnosis.json", self.content)
-        return [
-            "diagnosis.json",
-            "residuals.csv",
-            "causality.csv",
-            *([] if self.law is None else ["law.json"]),
-            *([] if self.limits is None else ["limits.csv"]),
-            *(f"{name}.csv" for name in self.to_report),
-        ]
+        files: dict[str, Any] = {
+            "diagnosis.json": self.content,
+            "residuals.csv": self.residuals,
+            "causality.csv": self.causality,
+            "law.json": self.law,
+            "limits.csv": self.limits,
+            **{f"{name}.csv": table for name, table in self.to_report.items()},
+        }
+        names = [name for name, content in files.items() if content is not None]
+        # diagnosis.json last: where it is, the others are too.
+        for name in reversed(names):
+            (write_json if name.endswith(".json") else write_table)(Path(folder) / name, files[name])
+        return names
 
     def written(self, folder: str | Path) -> str:
         """Write the files.
@@ -281,22 +258,20 @@ def conclude(
         For a table that cannot be diagnosed.
     """
     scatter = stated.scatter
-    done = Steps(progress)
     numerical = read_specimen(simulated.specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
     given = measurements.table.path if isinstance(measurements, Campaign) else Path(measurements)
     files = (given,) if campaign is None else campaign.files
     observed, origin = read_observations(measurements, geometry, stated.static_modulus)
-    done.step()
+    progress("Diagnose", 1, STEPS)
     try:
         diagnosis = diagnose(observed, scatter, draws=draws.number, seed=draws.seed)
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
-    done.step()
+    progress("Diagnose", 2, STEPS)
     moduli, phases, own = levels.odd(observed), levels.odd_phases(observed), diagnosis.ladder.of_one_place
-    phases, temperatures = levels.with_confined(
-        phases, levels.odd_temperatures(observed, moduli, phases), own
-    )
+    biases = levels.odd_temperatures(observed, moduli, phases)
+    phases, temperatures = levels.with_confined(phases, biases, own)
     odd = moduli, phases
     doubtful = levels.rows(diagnosis.observed, chain(*odd, temperatures))
     if np.unique(diagnosis.observed.isotherm[~doubtful]).size < diagnosis.observed.isotherms.size:
@@ -308,7 +283,7 @@ def conclude(
         content["law_misses"] = law_misses(diagnosis, fit.law, ~doubtful)
         content["laws"] = compared(diagnosis, fit, ~doubtful)
         content["notes"] += law_notes(diagnosis, fit.law, levels.places(*odd)) + prior_notes(fit)
-    done.step()
+    progress("Diagnose", 3, STEPS)
     notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
         notes.append(OF_THE_PAPER)
@@ -325,13 +300,12 @@ def conclude(
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"], content["odd_phases"] = odd
     content["odd_temperatures"] = temperatures
-    content["with_suspects"] = with_suspects(diagnosis, scatter, draws.seed)
-    content["without_doubtful"] = without_doubtful(diagnosis, scatter, draws.seed)
-    done.step()
+    content |= _second_opinions(diagnosis, scatter, draws.seed)
+    progress("Diagnose", 4, STEPS)
     ahead = fixed_orders.off_target(observed, Costs(), content["reading"].get("off_target", []))
     ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
     content["instructions"] = instructions(diagnosis, ahead=ahead)
-    done.step()
+    progress("Diagnose", 5, STEPS)
     broken = suspects.broken_isotherms(observed, loo, diagnosis.ladder.torn)
     content["contradictory_isotherms"] = [
         {
@@ -361,9 +335,8 @@ def conclude(
         "static_modulus_Pa": stated.static_modulus,
         "scatter_stated": None if scatter is None else list(scatter),
     }
-    law, curve = None, reported.master_curve(diagnosis)
+    law, known, curve = None, None, reported.master_curve(diagnosis)
     if fit is not None:
-        known = None
         if fit.covariance is not None:
             form = misfit_of_form(diagnosis, fit.law, ~doubtful)
             known = Uncertainty(fit.covariance, reported.freedom_of(diagnosis), form)
@@ -376,11 +349,7 @@ def conclude(
         suspects.table(observed, list(diagnosis.suspects), loo),
         law,
         diagnosis,
-        to_report={
-            "corrected": reported.corrected(diagnosis),
-            "reported": standard,
-            "master_curve": curve,
-        },
+        to_report={"corrected": reported.corrected(diagnosis), "reported": standard, "master_curve": curve},
     )
 
 
@@ -399,11 +368,7 @@ def law_parameters(law: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """
     intervals = law.get("interval_95", {})
     return {
-        key: {
-            "value": value,
-            "interval_95": intervals.get(key),
-            "determined": key not in law["unseen"],
-        }
+        key: {"value": value, "interval_95": intervals.get(key), "determined": key not in law["unseen"]}
         for key, value in law.items()
         if isinstance(value, float) and key not in ("reference_temperature_C", "rms_log_residual")
     }
@@ -424,82 +389,43 @@ def _begin_with_campaigns(
         content["notes"].append(bond_mapping.void(simulations))
     else:
         after = bond_mapping.simulated(facets, observed)
-        rung, sentence = bond_mapping.bond_mapping(
-            simulations, facets, gain.averages(diagnosis, before, after)
-        )
+        errors = gain.averages(diagnosis, before, after)
+        rung, sentence = bond_mapping.bond_mapping(simulations, facets, errors)
         if rung is None:
             content["notes"].append(sentence)
     for law in content["ladder"]:
         if law["cause"] == "relaxation_spectrum":
-            law["gain"]["in_sample"]["averages_by_temperature"] = gain.averages(
-                diagnosis, after, gain.with_common_law(diagnosis, specimen)
-            )
+            errors = gain.averages(diagnosis, after, gain.with_common_law(diagnosis, specimen))
+            law["gain"]["in_sample"]["averages_by_temperature"] = errors
     content["ladder"][:0] = [] if rung is None else [rung]
     return before
 
 
-def with_suspects(
+def _second_opinions(
     diagnosis: Diagnosis, scatter: tuple[float, float] | None, seed: int
-) -> dict[str, Any] | None:
-    """What is named if the tests that were set aside are used.
+) -> dict[str, dict[str, Any] | None]:
+    """What is named with the tests that were set aside, and without the doubtful ones; None where nobody asks.
 
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    scatter : tuple of float, optional
-        As stated by the user.
-    seed : int
-        Of the draws.
-
-    Returns
-    -------
-    dict or None
-        None where none was set aside.
+    Without them: only where something was named, and they are not few. Too many leave no table that can be diagnosed.
     """
-    if diagnosis.whole is None or not diagnosis.set_aside.size:
-        return None
-    return _named(diagnose(diagnosis.whole, scatter, draws=FEW_DRAWS, seed=seed, use_suspects=True))
 
+    def named(tests: Observations) -> dict[str, Any]:
+        other = diagnose(tests, scatter, draws=FEW_DRAWS, seed=seed, use_suspects=True)
+        keys: list[tuple[str, Place]] = [("relaxation_spectrum", None)] * other.relaxation_spectrum
+        keys += [rung.candidate.key for rung in other.ladder.rungs]
+        return {"verdict": other.verdict, "causes": [{"cause": name, "where": place} for name, place in keys]}
 
-def without_doubtful(
-    diagnosis: Diagnosis, scatter: tuple[float, float] | None, seed: int
-) -> dict[str, Any] | None:
-    """What is named if the doubtful tests are not used either.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    scatter : tuple of float, optional
-        As stated by the user.
-    seed : int
-        Of the draws.
-
-    Returns
-    -------
-    dict or None
-        None where nothing was named, or they are few or too many.
-    """
+    found: dict[str, dict[str, Any] | None] = {"with_suspects": None, "without_doubtful": None}
     whole = diagnosis.whole
-    rows = [one.row for one in diagnosis.suspects]
+    if whole is not None and diagnosis.set_aside.size:
+        found["with_suspects"] = named(whole)
     kept = sum(one.used for one in diagnosis.suspects)
     # A second opinion is a whole diagnosis: asked only where a name and tests enough are at stake.
-    if whole is None or not diagnosis.ladder.rungs or kept < MATTERING * whole.size or not kept:
-        return None
-    try:
-        part = whole.subset(np.setdiff1d(np.arange(whole.size), rows))
-        return _named(diagnose(part, scatter, draws=FEW_DRAWS, seed=seed, use_suspects=True))
-    except InputError:
-        return None
-
-
-def _named(other: Diagnosis) -> dict[str, Any]:
-    named = [
-        {"cause": rung.candidate.cause.name, "where": rung.candidate.place} for rung in other.ladder.rungs
-    ]
-    law = [{"cause": "relaxation_spectrum", "where": None}] if other.relaxation_spectrum else []
-    return {"verdict": other.verdict, "causes": [*law, *named]}
+    if whole is not None and diagnosis.ladder.rungs and kept >= max(MATTERING * whole.size, 1):
+        rest = np.setdiff1d(np.arange(whole.size), [one.row for one in diagnosis.suspects])
+        with suppress(InputError):
+            found["without_doubtful"] = named(whole.subset(rest))
+    return found
 
 
 def _checksums(files: Sequence[Path]) -> dict[str, Any]:

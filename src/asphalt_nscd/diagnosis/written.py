@@ -25,15 +25,12 @@ SCHEMA_VERSION = 3
 DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")
 UNDETERMINED = "These tests do not determine"  # begins the note on parameters of law.json that follow priors
 CONFINED_TO = {cause.name: cause.confined_to for cause in CATALOGUE}
+UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}  # of amplitudes
 BEFORE_AFTER = ("before", "after")
 RESIDUALS = {"E": "residual_E_{}_percent", "phase": "residual_phase_{}_deg"}
-_NUMBERS = ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
-_NUMBERS += [
-    column.format(when)
-    for when in BEFORE_AFTER
-    for column in ("E_{}_MPa", "phase_{}_deg", *RESIDUALS.values())
-]
-_CAUSALITY = ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
+_TEST = ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
+_FITTED = ["E_{}_MPa", "phase_{}_deg", *RESIDUALS.values()]
+_NUMBERS = _TEST + [column.format(when) for when in BEFORE_AFTER for column in _FITTED]
 _SHOWN = {
     "s": (1e3, "ms"),
     "Pa": (1e-6, "MPa"),
@@ -72,9 +69,8 @@ def read_diagnosis(paths: Sequence[Path]) -> dict[str, Any]:
     wrong = best_match(_schema().iter_errors(content))
     if wrong is not None:
         where = "/".join(map(str, wrong.absolute_path)) or "the file"
-        raise InputError(
-            f"{path}: {where} is damaged, not as the schema says; delete it and run `diagnose` again."
-        )
+        said = "is damaged, not as the schema says; delete it and run `diagnose` again."
+        raise InputError(f"{path}: {where} {said}")
     return content
 
 
@@ -120,10 +116,10 @@ def read_causality(paths: Sequence[Path]) -> pd.DataFrame:
     """
     table = read_csv(the_only(paths, "causality"))
     required, error = "phase_required_deg", "std_error_deg"
-    table.require(["specimen", *_CAUSALITY, required, error, "quality_flag", "reasons", "used"])
+    table.require(["specimen", *_TEST, required, error, "quality_flag", "reasons", "used"])
     return pd.DataFrame(
         {"specimen": table.text("specimen"), "reasons": table.columns["reasons"]}
-        | {name: table.numbers(name) for name in _CAUSALITY}
+        | {name: table.numbers(name) for name in _TEST}
         | {name: table.numbers_or_nan(name) for name in (required, error)}
         | {name: table.numbers(name) > 0.0 for name in ("quality_flag", "used")}
     )
@@ -169,12 +165,9 @@ def mean_averages(gain: dict[str, Any], inner: bool = False) -> dict[str, dict[s
         In percent.
     """
     at = sorted(gain["averages_by_temperature"], key=float)
-    by_temperature = [gain["averages_by_temperature"][t] for t in ((inner and at[1:-1]) or at)]
+    there = [gain["averages_by_temperature"][t] for t in ((inner and at[1:-1]) or at)]
     return {
-        name: {
-            when: sum(errors[name][when] for errors in by_temperature) / len(by_temperature)
-            for when in BEFORE_AFTER
-        }
+        name: {when: sum(errors[name][when] for errors in there) / len(there) for when in BEFORE_AFTER}
         for name in ("mre_E_percent", "mre_phase_percent")
     }
 
@@ -342,10 +335,9 @@ def limits_by_place(cause: str, limit: dict[str, Any]) -> dict[str, float]:
     dict of str to float
         By `place_name` of its places.
     """
-    places = limit.get("places")
-    if places is None:
+    if "places" not in limit:
         return {place_name(None): limit["value"]}
-    return {_place(cause, place): value for place, value in places.items()}
+    return {_place(cause, place): value for place, value in limit["places"].items()}
 
 
 def member_name(member: str) -> str:
@@ -362,8 +354,7 @@ def member_name(member: str) -> str:
         In words.
     """
     cause, _, place = member.partition(" @ ")
-    where = _place(cause, place) if place else ""
-    return cause.replace("_", " ") + (f" ({where})" if where else "")
+    return cause.replace("_", " ") + (f" ({_place(cause, place)})" if place else "")
 
 
 def _place(cause: str, written: str) -> str:

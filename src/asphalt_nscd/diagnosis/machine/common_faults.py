@@ -7,14 +7,12 @@ from dataclasses import dataclass, field
 
 import pandas as pd
 
-from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE
 from asphalt_nscd.diagnosis.words.sentences import an
-from asphalt_nscd.diagnosis.written import shown, three_digits, with_interval
+from asphalt_nscd.diagnosis.written import UNITS, shown, three_digits, with_interval
 from asphalt_nscd.files.words import joined
 
-UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
 SHOWS = 5.0  # times the error of the whole, up to which a part is told
 
 

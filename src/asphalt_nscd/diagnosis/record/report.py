@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Place
@@ -18,7 +19,7 @@ from asphalt_nscd.diagnosis.record.rungs import name_of, of_cause, of_law
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, cell_residuals
 from asphalt_nscd.diagnosis.simulation.gain import by_tests_alone, errors, simulated_by, with_burgers_laws
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import SCHEMA_VERSION, name_at, widening
+from asphalt_nscd.diagnosis.written import CONFINED_TO, SCHEMA_VERSION, UNITS, name_at, widening
 
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
@@ -106,23 +107,16 @@ def _numerics(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
 
 
 def _burgers_parameters(diagnosis: Diagnosis) -> dict[str, dict[str, float]]:
-    names = ("Em_Pa", "eta_m_Pa_s", "Ek_Pa", "eta_k_Pa_s")
     rows, base = np.exp(diagnosis.baseline.law).reshape(-1, 4), diagnosis.baseline_joint.base
     assert isinstance(base, BurgersAtEach)
-    return {
-        f"{t:g}": dict(zip(names, row.tolist(), strict=True))
-        for t, row in zip(base.isotherms, rows, strict=True)
-    }
+    names = ["Em_Pa", "eta_m_Pa_s", "Ek_Pa", "eta_k_Pa_s"]
+    return pd.DataFrame(rows, [f"{t:g}" for t in base.isotherms], names).to_dict("index")
 
 
 def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
     """Groups that this design, or these data, cannot tell apart."""
-    out = [
-        [name_of(rung.candidate), *map(name_of, rung.rivals)]
-        for rung in diagnosis.ladder.rungs
-        if rung.rivals
-    ]
-    out += [[name_of(one), name_of(other)] for one, other in diagnosis.ladder.alike]
+    rivals = [(rung.candidate, *rung.rivals) for rung in diagnosis.ladder.rungs if rung.rivals]
+    out = [list(map(name_of, group)) for group in (*rivals, *diagnosis.ladder.alike)]
     possible = {cause.name for cause in CATALOGUE if cause.on_bench(diagnosis.observed)}
     # 1/E + C is exactly another Burgers law, and without a static modulus another law of Huet and Sayegh.
     if "loose_clamp" in possible:
@@ -136,44 +130,34 @@ def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
 
 
 def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
-    observed = diagnosis.observed
-    out = [
-        {"cause": cause.name, "needs": cause.needs or "more frequencies and temperatures"}
-        for cause in CATALOGUE
-        if not cause.places(observed)
-    ]
-    shown = {c.key for rung in diagnosis.ladder.rungs for c in (rung.candidate, *rung.rivals)}
-    out += [
-        {"cause": name_of(candidate), "needs": candidate.cause.shows_in}
-        for candidate in diagnosis.ladder.unseen
-        if candidate.key not in shown
-    ]
+    observed, ladder = diagnosis.observed, diagnosis.ladder
+    none = [cause for cause in CATALOGUE if not cause.places(observed)]
+    out = [(cause.name, cause.needs or "more frequencies and temperatures") for cause in none]
+    shown = {c.key for rung in ladder.rungs for c in (rung.candidate, *rung.rivals)}
+    out += [(name_of(one), one.cause.shows_in) for one in ladder.unseen if one.key not in shown]
     seen = physical_limits(diagnosis)
-    nowhere = {name for name, _ in diagnosis.ladder.limits} - {name for name, _ in seen}
-    beyond = [
-        (name, None if name in nowhere else place) for name, place in diagnosis.ladder.limits.keys() - seen
-    ]
+    nowhere = {name for name, _ in ladder.limits} - {name for name, _ in seen}
+    beyond = {
+        name_at(name, None if name in nowhere else place) for name, place in ladder.limits.keys() - seen
+    }
     out += [
-        {"cause": name, "needs": "other tests: in these, only an impossibly large one would show"}
-        for name in sorted({name_at(*key) for key in beyond})
+        (name, "other tests: in these, only an impossibly large one would show") for name in sorted(beyond)
     ]
     if not diagnosis.relaxation_spectrum and observed.frequencies.size < 3:
-        out.append({"cause": "relaxation_spectrum", "needs": "three frequencies: a Burgers law fits any two"})
+        out.append(("relaxation_spectrum", "three frequencies: a Burgers law fits any two"))
     elif not diagnosis.replicated:
-        out.append({"cause": "relaxation_spectrum", "needs": "replicates, or a stated scatter"})
-    return out
+        out.append(("relaxation_spectrum", "replicates, or a stated scatter"))
+    return [{"cause": name, "needs": needs} for name, needs in out]
 
 
 def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
     """Amplitude found with 95 % probability: of each cause, and of each place of a confined one."""
-    units = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
-    confined_to = {cause.name: cause.confined_to for cause in CATALOGUE}
     limits: dict[str, dict[str, Any]] = {}
     for (name, place), value in physical_limits(diagnosis).items():
-        entry = limits.setdefault(name, {"value": np.inf, "unit": units[name]})
+        entry = limits.setdefault(name, {"value": np.inf, "unit": UNITS[name]})
         entry["value"] = min(entry["value"], float(value))
         if place is not None:
-            entry["confined_to"] = confined_to[name]
+            entry["confined_to"] = CONFINED_TO[name]
             entry.setdefault("places", {})[str(place)] = float(value)
     return limits
 
@@ -196,21 +180,19 @@ def _suspects(diagnosis: Diagnosis) -> list[dict[str, Any]]:
 def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:
     """Amplitude of every cause at every place and its standard error, where a discrepancy was estimated."""
     out: dict[str, Any] = {}
-    units = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}
     for (name, place), (value, error) in diagnosis.ladder.estimates.items():
-        where = "all" if place is None else str(place)
         places = out.setdefault(name, {"places": {}})["places"]
-        places[where] = {"value": float(value), "std_error": float(error), "unit": units[name]}
+        where = "all" if place is None else str(place)
+        places[where] = {"value": float(value), "std_error": float(error), "unit": UNITS[name]}
     return out
 
 
 def _spread_note(spread: float) -> list[str]:
-    if spread < WIDE_SPREAD:
-        return []
-    return [
+    note = (
         f"These tests lie {spread:.1f} times as far from the free master curve as their scatter suggests. Intervals "
         f"and limits are therefore multiplied by {spread:.1f}; standard errors are not."
-    ]
+    )
+    return [note] * (spread >= WIDE_SPREAD)
 
 
 def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
@@ -226,9 +208,8 @@ def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
     dict of tuple to float
         By cause and place.
     """
-    most = {
-        cause.name: max(abs(cause.parameters[0].low), abs(cause.parameters[0].high)) for cause in CATALOGUE
-    }
+    first = {cause.name: cause.parameters[0] for cause in CATALOGUE}
+    most = {name: max(abs(amplitude.low), abs(amplitude.high)) for name, amplitude in first.items()}
     factor = widening(diagnosis.ladder.estimates_spread)
     limits = {key: factor * value for key, value in diagnosis.ladder.limits.items()}
     return {key: value for key, value in limits.items() if value <= most[key[0]]}
@@ -247,20 +228,20 @@ def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:
     aside, joint = diagnosis.set_aside, diagnosis.ladder.joint
     if not aside.size:
         return out
-    expected = Joint(aside, joint.base, joint.noise).predict(diagnosis.ladder.fitted)
-    for row in range(aside.size):
-        left = complex(aside.logarithm[row] - expected[row])
-        sigma = diagnosis.noise.sigma
-        size = max(abs(left.real) / sigma[0], abs(left.imag) / sigma[1])
-        out.append({**_miss(aside, row, left, size), "specimen": aside.names[aside.specimen[row]]})
-    return out
+    left = aside.logarithm - Joint(aside, joint.base, joint.noise).predict(diagnosis.ladder.fitted)
+    of_modulus, of_phase = diagnosis.noise.sigma
+    size = np.maximum(np.abs(left.real) / of_modulus, np.abs(left.imag) / of_phase)
+    return out + [
+        {**_miss(aside, row, left[row], size[row]), "specimen": aside.names[aside.specimen[row]]}
+        for row in range(aside.size)
+    ]
 
 
 def _miss(observed: Observations, row: int, residual: complex, z: float) -> dict[str, float | str]:
     return {
         "temperature_C": float(observed.isotherm[row]),
         "frequency_Hz": float(observed.frequency[row]),
-        "residual_E_percent": 100.0 * residual.real,
+        "residual_E_percent": 100.0 * float(residual.real),
         "residual_phase_deg": float(np.degrees(residual.imag)),
         "z": float(z),
     }
