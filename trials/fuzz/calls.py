@@ -30,6 +30,7 @@ import numpy as np
 import pandas as pd
 
 import asphalt_nscd as an
+from asphalt_nscd.exports.formats import FORMATS
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range
 from asphalt_nscd.files.store import provenance, write_json, write_table
@@ -270,15 +271,7 @@ def export(rng: Random) -> Call:
         packings()[0],
         specimens()[rng.integers(5)],
     ][rng.integers(4)]
-    endings = {
-        "abaqus": "inp",
-        "ansys": "inp",
-        "comsol": "txt",
-        "csv": "csv",
-        "xlsx": "xlsx",
-        "mepdg": "csv",
-        "vtk": "vtp",
-    }
+    endings = {name: usual for name, (_, (usual, *_)) in FORMATS.items()} | {"vtk": ".vtp"}
     form = str(rng.choice(list(endings)))
     settings = {
         "error_percent": number(rng, Range(above=0.0), 1.0),
@@ -291,7 +284,7 @@ def export(rng: Random) -> Call:
 
     def call() -> str:
         with tempfile.TemporaryDirectory() as folder:
-            output = Path(folder, f"out.{endings[form]}")
+            output = Path(folder, f"out{endings[form]}")
             made = an.ExportSettings(**settings)
             return an.export(what, output, form, settings=made, frequencies_Hz=band)
 
