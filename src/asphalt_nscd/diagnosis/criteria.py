@@ -1,4 +1,6 @@
-"""What decides whether a cause is named, in one place: each value with its unit, and the study or source that chose it.
+"""Thresholds of a name, chances of causes, usual errors of a laboratory: each with its unit, and what chose it.
+
+What tunes one computation alone stands beside it in its own module: most in `screening`, as what makes a test suspect.
 
 Chances and sizes of causes are judgements, to a factor of two or so, of what happens on such benches; no survey of
 laboratories is at hand. A factor of two in a chance moves the size that is named by some 5 %. "Drawn tables" are those
@@ -114,7 +116,8 @@ class Usual:
 OF_ISOTHERM = 0.2  # K
 LABORATORY = {
     "specimen temperature": Usual(0.25, 0.4),  # K
-    # What the isotherms of one specimen differ by in FD_Mix1, AMPT and NCAT: 1 to 2 % and 0.1 to 0.3 deg.
+    # What the isotherms of one specimen differ by in NCAT (data/ncat) and in two campaigns that are not shipped,
+    # FD_Mix1 and one of an AMPT: 1 to 2 % and 0.1 to 0.3 deg.
     "mounting, modulus": Usual(0.01, 0.6),
     "mounting, phase": Usual(float(np.radians(0.15)), 0.6),  # rad
 }

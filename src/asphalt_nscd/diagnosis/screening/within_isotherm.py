@@ -28,7 +28,7 @@ Vector = NDArray[np.float64]
 LEAST = 4  # tests of an isotherm: of three, none is redundant
 # Wide against what campaigns have (-0.1 to 3.3 deg in NCAT's), so that an offset of a whole isotherm accuses no test.
 OFFSET = np.radians(5.0)  # standard deviation of what all phases of an isotherm are off by
-# Up to what hot isotherms of real tables show: 20 deg at 25 Hz and 54 degC in FD_Mix1.
+# Up to what hot isotherms of real tables show: 20 deg at 25 Hz and 54 degC in FD_Mix1, not shipped.
 BENDS = np.radians([0.0, 0.5, 1.5, 5.0, 15.0])  # sizes of the smooth departure of the phase [rad]
 BEND_WEIGHTS = (0.60, 0.18, 0.10, 0.07, 0.05)  # before the data speak
 BEND_LENGTH = 2.5  # of ln f
