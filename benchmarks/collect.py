@@ -1,11 +1,15 @@
 """All rows in one table, those beside peers, and how each stage grows: cpu ~ spheres^exponent.
 
-python benchmarks/collect.py ROWS.csv... --output TABLE.csv --beside BESIDE.csv --growth GROWTH.csv
+python benchmarks/collect.py ROWS.csv... --output TABLE.csv --beside BESIDE.csv --growth GROWTH.csv --earlier FOLDER
+
+Rows of the FOLDER's benchmark.csv that were not measured now are kept, and say of which commit they are: the largest
+size of the growth alone takes most of an hour.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 from pathlib import Path
 
 import numpy as np
@@ -36,14 +40,28 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def with_earlier(table: pd.DataFrame, folder: Path) -> pd.DataFrame:
+    """Rows measured now, then those of an earlier table that are not among them."""
+    commit = json.loads((folder / "provenance.json").read_text())["git_commit"][:7]
+    both = pd.concat([table, pd.read_csv(folder / "benchmark.csv")[COLUMNS]], ignore_index=True)
+    both = both[~both.duplicated(["topic", "case", "spheres"])].reset_index(drop=True)
+    remark = both["remark"].fillna("")
+    earlier = (both.index >= len(table)) & ~remark.str.contains("measured at ")
+    both.loc[earlier, "remark"] = (remark[earlier] + f"; measured at {commit}").str.removeprefix("; ")
+    return both
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("rows", nargs="+", type=Path)
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--beside", type=Path, required=True)
     parser.add_argument("--growth", type=Path, required=True)
+    parser.add_argument("--earlier", type=Path)
     told = parser.parse_args()
     table = pd.concat([pd.read_csv(path) for path in told.rows], ignore_index=True)[COLUMNS]
+    if told.earlier:
+        table = with_earlier(table, told.earlier)
     write_table(told.output, table)
     write_table(told.beside, table[table.topic != "growth"])
     write_table(told.growth, exponents(table))

@@ -76,6 +76,31 @@ def test_exponents_are_those_of_the_powers(tmp_path):
     assert pd.isna(growth.exponent_of_time["cut"]) and growth.cpu_s_of_largest["cut"] == 1.0
 
 
+def test_rows_that_are_not_measured_again_are_kept_with_their_commit(tmp_path):
+    """FCLIB's problems have no size, and are known by their name."""
+    columns = ["topic", "case", "spheres", "time_step_s", "cpu_s", "memory_MB", "remark"]
+    earlier = [
+        ("growth", "pour", 1000, None, 9.0, 1.0, None),
+        ("growth", "pour", 200_000, None, 99.0, 1.0, "slow"),
+        ("FCLIB to 1e-8", "tower", None, None, 9.0, 1.0, None),
+    ]
+    write_table(tmp_path / "benchmark.csv", pd.DataFrame(earlier, columns=columns))
+    (tmp_path / "provenance.json").write_text('{"git_commit": "0123456789"}')
+    now = [
+        ("growth", "pour", 1000, None, 1.0, 1.0, None),
+        ("FCLIB to 1e-8", "tower", None, None, 2.0, 1.0, None),
+    ]
+    write_table(tmp_path / "rows.csv", pd.DataFrame(now, columns=columns))
+    outputs = ["--output", "table.csv", "--beside", "beside.csv", "--growth", "growth.csv"]
+    for _ in range(2):  # what was kept once is kept with its own commit
+        tell(tmp_path, "collect.py", "rows.csv", *outputs, "--earlier", ".")
+        table = pd.read_csv(tmp_path / "table.csv")
+        assert table["cpu_s"].tolist() == [1.0, 2.0, 99.0]
+        assert table["remark"].fillna("").tolist() == ["", "", "slow; measured at 0123456"]
+        (tmp_path / "benchmark.csv").write_bytes((tmp_path / "table.csv").read_bytes())
+        (tmp_path / "provenance.json").write_text('{"git_commit": "abcdef0123"}')
+
+
 def test_packings_are_compared_by_version_and_size(tmp_path):
     """Overlaps in parts of the smallest radius, heights in mm; mean and half the range over the seeds."""
     for seed, height in ((1, 0.062), (2, 0.064)):

@@ -268,12 +268,14 @@ rule benchmark:
         table="results/benchmark/benchmark.csv",
         beside="results/benchmark/beside.csv",
         growth="results/benchmark/growth.csv",
+    params:
+        earlier="results/published/benchmark",  # of sizes and peers that are not measured now
     log:
         "results/benchmark/logs/collect.log",
     message:
         "Collect the benchmarks"
     shell:
-        MEASURE + "/collect.py {input.rows} --output {output.table} --beside {output.beside} --growth {output.growth} > {log} 2>&1"
+        MEASURE + "/collect.py {input.rows} --output {output.table} --beside {output.beside} --growth {output.growth} --earlier {params.earlier} > {log} 2>&1"
 
 
 rule benchmark_outside:
