@@ -121,10 +121,9 @@ def _sentence(one: Common) -> str:
         others = joined([an(other.replace("_", " ")) for other in one.as_good], "or")
         or_else = f"; {others} would fit as well" if others else ""
         return f"Machine: {words} in all campaigns, {size} (95 % interval){or_else}."
-    parts = {"campaigns": one.campaigns, "isotherms": one.isotherms, "frequencies": one.frequencies}
     differ = []
     for group in one.differs:
-        known = [part for part in parts[group] if part.std_error < SHOWS * one.std_error]
+        known = [part for part in getattr(one, group) if part.std_error < SHOWS * one.std_error]
         low, high = min(known, key=lambda part: part.value), max(known, key=lambda part: part.value)
         ends = [f"{three_digits(shown(part.value, unit)[0])} {name} ({part.where})" for part in (low, high)]
         differ.append(f"between {group} from {ends[0]} to {ends[1]}")

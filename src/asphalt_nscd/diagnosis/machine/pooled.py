@@ -129,13 +129,9 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
     amplitudes = np.zeros(0)
     limits: dict[str, float] = {}
     while states:
-        open_ = [
-            cause
-            for cause in CATALOGUE
-            if of_machine(cause)
-            and cause not in causes
-            and any(cause.places(one.state.plain.observed) for one in states)
-        ]
+        tables = [one.state.plain.observed for one in states]
+        left = [cause for cause in CATALOGUE if of_machine(cause) and cause not in causes]
+        open_ = [cause for cause in left if any(map(cause.places, tables))]
         if not open_:
             break
         each = {cause: [_evidence(one, [*causes, cause]) for one in states] for cause in open_}
@@ -157,26 +153,22 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
             break
         gains = {cause: _gain(each[cause], amplitudes) for cause in common}
         best = _likeliest(pooled, gains, len(states))
-        as_good = tuple(
-            cause.name
-            for cause in open_
-            if cause is not best and z_of[best] ** 2 - z_of[cause] ** 2 < TWENTY_TIMES
-        )
         z = z_of[best]
+        rivals = [cause for cause in open_ if cause is not best and z**2 - z_of[cause] ** 2 < TWENTY_TIMES]
         causes.append(best)
         amplitudes = np.append(amplitudes, pooled[best].value)
         p_value = chance.tail(by_chance, z)
         for _ in range(SETTLED):
             states = [one.with_causes(causes, amplitudes) for one in states]
             amplitudes = _all_together([_evidence(one, causes) for one in states], amplitudes)
+        as_good = tuple(cause.name for cause in rivals)
         found.append(Common(best, 0.0, 0.0, 0.0, p_value, (), (), (), as_good))
     last = [_evidence(one, causes) for one in states]
     found = [_told(one, k, states, last, causes, amplitudes) for k, one in enumerate(found)]
     # What was found beside a cause that has no one size hangs on it: it is not told.
     nameless = next((k for k, one in enumerate(found) if not one.named), len(found))
-    return Pooled(
-        tuple(found[: nameless + 1]), limits, tuple(name for name, one in begun.items() if one is None)
-    )
+    left_out = tuple(name for name, one in begun.items() if one is None)
+    return Pooled(tuple(found[: nameless + 1]), limits, left_out)
 
 
 def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
@@ -195,17 +187,11 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
 def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | None = None) -> _Evidence:
     """Of causes, the last one with the discrepancy's sizes estimated beside it; parts (n, k): shares of it apart."""
     state, observed = campaign.state, campaign.state.plain.observed
-    shown = [k for k, cause in enumerate(causes) if cause.places(observed)]
-    columns, stands, inside = [], np.zeros(len(causes)), []
-    for k in shown:
-        column, value, place = _direction(state, causes[k])
-        columns.append(column)
-        stands[k] = value
-        inside += [] if place is None else [place]
-    size = len(causes)
-    if not columns:
+    size, shown = len(causes), [k for k, cause in enumerate(causes) if cause.places(observed)]
+    if not shown:
         return _Evidence(np.zeros((size, size)), np.zeros(size))
-    rest = state.linear.fixed(inside)
+    columns, stands, places = zip(*(_direction(state, causes[k]) for k in shown), strict=True)
+    rest = state.linear.fixed([place for place in places if place is not None])
     model = likelihood.reduce(state.model.processes, rest)
     pointing = likelihood.directions(model, rest, state.plain.noise.whiten(np.column_stack(columns)))
     # Those before the last are held at where they stand: their size is common and known far better.
@@ -213,17 +199,14 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
     if parts is not None:
         apart = columns[-1][:, None] * parts
         pointing = likelihood.directions(model, rest, state.plain.noise.whiten(apart))
-        information, score = likelihood.weighed(model, pointing, variances)
-        # A campaign whose estimates spread further than they say counts for less, as in its own intervals.
-        information, score = information / campaign.spread**2, score / campaign.spread**2
-        return _Evidence(information, score + information @ np.full(parts.shape[1], stands[shown[-1]]))
     information, score = likelihood.weighed(model, pointing, variances)
+    # A campaign whose estimates spread further than they say counts for less, as in its own intervals.
     information, score = information / campaign.spread**2, score / campaign.spread**2
-    whole = np.zeros((size, size))
-    whole[np.ix_(shown, shown)] = information
-    out = np.zeros(size)
-    out[shown] = score
-    return _Evidence(whole, out + whole @ stands)
+    if parts is not None:
+        return _Evidence(information, score + information @ np.full(parts.shape[1], stands[-1]))
+    whole, out, at = np.zeros((size, size)), np.zeros(size), np.zeros(size)
+    whole[np.ix_(shown, shown)], out[shown], at[shown] = information, score, stands
+    return _Evidence(whole, out + whole @ at)
 
 
 def _direction(state: fit_beside.State, cause: Cause) -> tuple[NDArray, float, int | None]:
@@ -309,9 +292,8 @@ def _densities(left: Vector, weight: Vector) -> Vector:
     """Of errors (n,) of sound campaigns and of those in larger error, up to a factor: (2, n)."""
     # Farther out both densities would underflow, and no share of either be left.
     z = np.minimum(np.sqrt(weight) * np.abs(left), FARTHEST)
-    return np.array(
-        [(1.0 - ASTRAY) * np.exp(-0.5 * z**2), ASTRAY / LARGER * np.exp(-0.5 * (z / LARGER) ** 2)]
-    )
+    sound, wrong = np.exp(-0.5 * z**2), np.exp(-0.5 * (z / LARGER) ** 2)
+    return np.array([(1.0 - ASTRAY) * sound, ASTRAY / LARGER * wrong])
 
 
 def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float], campaigns: int) -> Cause:
@@ -327,9 +309,8 @@ def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float], cam
 def _gain(each: Sequence[_Evidence], taken: Vector) -> float:
     """Of -2 ln likelihood, by the last cause with an amplitude of its own in each campaign."""
     alone = [one.at([taken.size], dict(enumerate(taken))) for one in each]
-    return sum(
-        float(one.score[0] ** 2 / one.information[0, 0]) for one in alone if one.information[0, 0] > 0.0
-    )
+    shown = [one for one in alone if one.information[0, 0] > 0.0]
+    return sum(float(one.score[0] ** 2 / one.information[0, 0]) for one in shown)
 
 
 def _z(cause: Cause, found: _Whole) -> float:
@@ -338,11 +319,7 @@ def _z(cause: Cause, found: _Whole) -> float:
 
 
 def _by_chance(
-    states: Sequence[_Campaign],
-    causes: Sequence[Cause],
-    taken: int,
-    draws: int,
-    random: np.random.Generator,
+    states: Sequence[_Campaign], causes: Sequence[Cause], taken: int, draws: int, random: np.random.Generator
 ) -> Vector:
     """The largest z of the causes after the first `taken` that chance alone gives."""
     information = np.sum([_evidence(one, causes).information for one in states], axis=0)
@@ -373,9 +350,7 @@ def _told(
     whole = _together(each, others)
     unit = one.cause.parameters[0].typical
     alone = [one_.at([len(order) - 1], dict(enumerate(others))) for one_ in each]
-    campaigns = tuple(
-        _part(campaign.name, evidence, unit) for campaign, evidence in zip(states, alone, strict=True)
-    )
+    campaigns = tuple(_part(of.name, evidence, unit) for of, evidence in zip(states, alone, strict=True))
     ordered = [causes[j] for j in order]
     isotherms, by_isotherm = _apart(states, ordered, lambda of: of.isotherm, "degC")
     frequencies, by_frequency = _apart(states, ordered, lambda of: of.frequency, "Hz")
@@ -402,10 +377,7 @@ def _part(name: str, evidence: _Evidence, unit: float) -> Part:
 
 
 def _apart(
-    states: Sequence[_Campaign],
-    causes: Sequence[Cause],
-    label: Callable[[Observations], Vector],
-    word: str,
+    states: Sequence[_Campaign], causes: Sequence[Cause], label: Callable[[Observations], Vector], word: str
 ) -> tuple[tuple[Part, ...], float]:
     """The last cause with an amplitude of its own at each label, and the chance that one amplitude differs so much."""
     labels = np.unique(np.concatenate([label(one.state.plain.observed) for one in states]))

@@ -47,10 +47,9 @@ def gauges(done: Observations, costs: Costs) -> Orders:
             f"{rows.size} of {done.size} tests exceed the limit of {limit.label}. If the new ones stay below it, the "
             "mounting was at fault: repeat the other temperatures too. If not, it is the machine or the specimens."
         )
-        act = f"check {limit.check}, mount {named(names)} anew and test"
-        orders.append(
-            _order(act, names, [at], done, costs, (f"to see whether {limit.label} gets better", why), "again")
-        )
+        act = f"check {limit.check}, mount {named(names)} anew and test again"
+        purpose = f"to see whether {limit.label} gets better"
+        orders.append(_order(act, names, [at], done, costs, (purpose, why)))
     return orders
 
 
@@ -113,7 +112,7 @@ def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, An
             f"AASHTO T 378 allows {OFF_TARGET:g} K. Look into the record first. If the temperature there is a slip, "
             "correct it and run this again. If not, use the new tests."
         )
-        orders.append(_order(f"test {named(names)}", names, [t], done, costs, (purpose, why), "again"))
+        orders.append(_order(f"test {named(names)} again", names, [t], done, costs, (purpose, why)))
     return orders
 
 
@@ -135,9 +134,8 @@ def second_specimen(done: Observations, costs: Costs) -> Orders:
     if len(done.names) > 1:
         return []
     why = "Two specimens show the scatter from test to test. Without it nothing here is certain."
-    return [
-        _order(f"test {NEW}", [NEW], done.isotherms.tolist(), done, costs, ("to measure the scatter", why))
-    ]
+    at, words = done.isotherms.tolist(), ("to measure the scatter", why)
+    return [_order(f"test {NEW}", [NEW], at, done, costs, words)]
 
 
 def more_temperatures(done: Observations, costs: Costs) -> Orders:
@@ -161,30 +159,22 @@ def more_temperatures(done: Observations, costs: Costs) -> Orders:
     new = [float(round(t)) for t in (*beyond, *between)][: max(LEAST_ISOTHERMS - tested.size, 0)]
     if not new:
         return []
-    names = [done.names[k] for k in range(min(2, len(done.names)))]
-    why = (
-        f"{counted(tested.size, 'temperature')} {'was' if tested.size == 1 else 'were'} tested. A fault can be proved "
-        f"from {LEAST_ISOTHERMS} on."
-    )
+    names = list(done.names[:2])
+    were = f"{counted(tested.size, 'temperature')} {'was' if tested.size == 1 else 'were'} tested"
+    why = f"{were}. A fault can be proved from {LEAST_ISOTHERMS} on."
     purpose = f"because fewer than {LEAST_ISOTHERMS} temperatures cannot prove a fault"
     return [_order(f"test {named(names)}", names, sorted(new), done, costs, (purpose, why))]
 
 
 def _order(
-    act: str,
-    names: list[str],
-    at: list[float],
-    done: Observations,
-    costs: Costs,
-    why: tuple[str, str],
-    again: str = "",
+    act: str, names: list[str], at: list[float], done: Observations, costs: Costs, why: tuple[str, str]
 ) -> dict[str, Any]:
-    """why: its purpose in a few words, and the reason in full."""
+    """An order at these temperatures and all frequencies; why: its purpose in a few words, and the reason in full."""
     frequencies = done.frequencies.tolist()
     hours = sum(costs.hours("", t, frequencies) for name in names for t in at)
     hours += costs.new_specimen * (NEW in names)
-    words = " ".join(filter(None, [act, again, f"at {joined([f'{t:g}' for t in at])} degC"]))
-    return _content(f"{words}, {band(frequencies)}", why, hours, names, at, frequencies)
+    words = f"{act} at {joined([f'{t:g}' for t in at])} degC, {band(frequencies)}"
+    return _content(words, why, hours, names, at, frequencies)
 
 
 def _content(

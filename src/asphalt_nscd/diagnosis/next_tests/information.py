@@ -266,7 +266,6 @@ class Inquiry:
 
     def __init__(self, linear: Linear, old: Tested, asked: Sequence[Asked]) -> None:
         self.asked = list(asked)
-        self._linear = linear
         self._known: dict[bytes, Knowledge] = {}
         for one in self.asked:
             if one.kept.tobytes() not in self._known:
@@ -300,11 +299,10 @@ class Inquiry:
         ndarray (M, Q)
             Nats.
         """
-        after = {}
-        for key, known in self._known.items():
-            after[key] = known.information + known.gained(
-                [_some(one, np.frombuffer(key, bool)) for one in tests]
-            )
+        after = {
+            key: known.information + known.gained([_some(one, np.frombuffer(key, bool)) for one in tests])
+            for key, known in self._known.items()
+        }
         return np.column_stack(
             [
                 one.question.nats(after[one.kept.tobytes()]) - one.question.nats(self.known(one).information)

@@ -199,6 +199,11 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
     specimen, temperature, frequency, strain = (np.array(column) for column in zip(*full, *half, strict=True))
     # A new specimen has no row yet: it takes the geometry of the last one.
     like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
+    course: dict[str, Any] = {
+        name: _after(observed, name, specimen)
+        for name in ("order", "cycles", "time_step")
+        if getattr(observed, name) is not None
+    }
     more = replace(
         observed.subset(like),
         specimen=specimen,
@@ -206,25 +211,11 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
         frequency=frequency,
         amplitude=strain * float(np.median(observed.known("amplitude"))),
         nominal_temperature=temperature,
+        **course,
     )
-    course: dict[str, Any] = {
-        name: _after(observed, name, specimen)
-        for name in ("order", "cycles", "time_step")
-        if getattr(observed, name) is not None
-    }
-    more = replace(more, **course)
+    columns = ("specimen", "temperature", "frequency", "modulus", "form_factor", "inertia", "amplitude")
     both: dict[str, Any] = {
-        name: np.concatenate([getattr(observed, name), getattr(more, name)])
-        for name in (
-            "specimen",
-            "temperature",
-            "frequency",
-            "modulus",
-            "form_factor",
-            "inertia",
-            "amplitude",
-            *course,
-        )
+        name: np.concatenate([getattr(observed, name), getattr(more, name)]) for name in (*columns, *course)
     }
     return replace(
         observed,
@@ -376,13 +367,8 @@ def on_metal(observed: Observations) -> Observations:
     Observations
         One row for each frequency.
     """
-    at = np.array(
-        [
-            np.flatnonzero(observed.frequency == f)[0]
-            for f in frequencies(observed)
-            if f in observed.frequencies
-        ]
-    )
+    tested, first = np.unique(observed.frequency, return_index=True)
+    at = first[np.isin(tested, frequencies(observed))]
     return replace(observed.subset(at), modulus=np.full(at.size, METAL_MODULUS + 0j))
 
 

@@ -9,7 +9,9 @@ next, given the first.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -26,7 +28,7 @@ from asphalt_nscd.diagnosis.record import rungs
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.words.order_words import Context, Open, Order, in_a_sentence, purpose, reasons
-from asphalt_nscd.diagnosis.words.sentences import an
+from asphalt_nscd.diagnosis.words.sentences import an, typed
 from asphalt_nscd.diagnosis.words.unexplained import size_left
 from asphalt_nscd.diagnosis.written import shown, three_digits, widening, with_interval
 from asphalt_nscd.files.words import joined, specimen_named
@@ -69,21 +71,16 @@ def instructions(
     costs = costs or Costs()
     model = possible(diagnosis, costs)
     questions = open_questions(diagnosis, model)
-    chosen = choose(model, questions)
     done = diagnosis.whole or diagnosis.observed
     checks = fixed_orders.gauges(done, costs)
     first = [*(ahead or []), *checks]
     first += [] if diagnosis.replicated else fixed_orders.second_specimen(done, costs)
     last = fixed_orders.more_temperatures(done, costs) if diagnosis.replicated else []
-    told = [
-        (one, reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality)))
-        for k, one in enumerate(chosen)
-    ]
     orders = [
         {
             "text": in_a_sentence(one, done),
             "purpose": purpose(one, questions),
-            "why": why,
+            "why": reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality)),
             "hours": round(one.hours, 2),
             "nats": round(one.nats, 2),
             "specimens": one.specimens,
@@ -91,10 +88,10 @@ def instructions(
             "frequencies_Hz": list(one.sweep.frequencies),
             "half_strain": one.sweep.half_strain,
         }
-        for one, why in told
-        if why
+        for k, one in enumerate(choose(model, questions))
     ]
-    return {"costs": costs.sentence, "orders": [*[*first, *orders][: MOST - len(last)], *last]}
+    told = [one for one in orders if one["why"]]
+    return {"costs": costs.sentence, "orders": [*[*first, *told][: MOST - len(last)], *last]}
 
 
 def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
@@ -135,9 +132,8 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
         if alike is None:
             alike = Order(sweep, [], 0.0, 0.0, {})
             orders.append(alike)
-        alike.specimens = [
-            name for name in model.table.names if name in (*alike.specimens, sweep.specimen)
-        ] or [METAL]
+        tested = (*alike.specimens, sweep.specimen)
+        alike.specimens = [name for name in model.table.names if name in tested] or [METAL]
         waiting = [other for other in waiting if not _again(other, sweep)]
         alike.hours, alike.nats = alike.hours + sweep.hours, alike.nats + nats
         for k in helped:
@@ -146,23 +142,16 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
 
 
 def _same(one: Sweep, other: Sweep) -> bool:
-    return (one.temperature, one.frequencies, one.half_strain) == (
-        other.temperature,
-        other.frequencies,
-        other.half_strain,
-    ) and METAL not in (one.specimen, other.specimen)
+    conditions = attrgetter("temperature", "frequencies", "half_strain")
+    return conditions(one) == conditions(other) and METAL not in (one.specimen, other.specimen)
 
 
 def _again(one: Sweep, other: Sweep) -> bool:
     """Whether a sweep repeats tests of another; once metal is mounted, one sweep is all that it has to say."""
     if METAL in (one.specimen, other.specimen):
         return one.specimen == other.specimen
-    same = (one.specimen, one.temperature, one.half_strain) == (
-        other.specimen,
-        other.temperature,
-        other.half_strain,
-    )
-    return same and not set(one.frequencies).isdisjoint(other.frequencies)
+    conditions = attrgetter("specimen", "temperature", "half_strain")
+    return conditions(one) == conditions(other) and not {*one.frequencies}.isdisjoint(other.frequencies)
 
 
 def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
@@ -181,36 +170,34 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         Named causes to confirm and to tell apart, departures to repeat, then causes out of reach.
     """
     active = tuple(range(len(diagnosis.ladder.fitted.active)))
+    others = list(enumerate(model.candidates))[len(active) :]
     everything = np.ones(model.linear.nuisance.shape[0], bool)
     known = Knowledge(model.linear, [model.old]).information
     found: list[Open] = []
     rivals = {rung.candidate.key: {one.key for one in rung.rivals} for rung in diagnosis.ladder.rungs}
     for k in active:
         found += _of_named(diagnosis, model, k, active)
-        for j in range(len(active), len(model.candidates)):
-            question = Question(k, _amplitude(model.candidates[k]), (*active, j), TOLD_APART)
+        named = model.candidates[k]
+        for j, other in others:
+            question = Question(k, _amplitude(named), (*active, j), TOLD_APART)
             if question.strength(known) < TOLD_APART:
-                both = model.candidates[k], model.candidates[j]
-                as_good = both[1].key in rivals[both[0].key]
-                words = words_of(both[0]), words_of(both[1])
-                found.append(Open("apart", Asked(question, everything), *words, *both, alike=as_good))
+                words, as_good = (words_of(named), words_of(other)), other.key in rivals[named.key]
+                found.append(Open("apart", Asked(question, everything), *words, named, other, alike=as_good))
     for n, departure in enumerate(model.departures):
         question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART)
         words = _of_departure(diagnosis, departure)
         found.append(Open(departure.kind, Asked(question, everything), *words, departure=departure))
-    names = [candidate.cause.name for candidate in model.candidates]
+    places = Counter(candidate.cause.name for candidate in model.candidates)
     spread = diagnosis.ladder.estimates_spread  # by which an effect is harder to find
     shapeless = max(diagnosis.ladder.discrepancy.values(), default=0.0) > HIDES
-    for j in range(len(active), len(model.candidates)):
-        if shapeless and len(model.candidates[j].values) > 1:
+    for j, other in others:
+        if shapeless and len(other.values) > 1:
             continue  # a cause with a shape of its own gets no name beside a discrepancy
         # That a cause is there at all is shared by the places where it may be.
-        question = Question(j, REACH / spread, active, FOUND, PRESENT / names.count(names[j]))
-        hidden = max(float(question.strength(known)) - _by_limit(diagnosis, model.candidates[j]), 0.0)
-        words = _sized(model.candidates[j], REACH)
-        found.append(
-            Open("reach", Asked(question, everything), *words, candidate=model.candidates[j], hidden=hidden)
-        )
+        question = Question(j, REACH / spread, active, FOUND, PRESENT / places[other.cause.name])
+        hidden = max(float(question.strength(known)) - _by_limit(diagnosis, other), 0.0)
+        asked = Asked(question, everything)
+        found.append(Open("reach", asked, *_sized(other, REACH), candidate=other, hidden=hidden))
     return found
 
 
@@ -276,10 +263,9 @@ def _on_metal(model: Possible, k: int, amplitude: float, share: float) -> str:
     effect = amplitude * model.linear.effects[metal, k]
     most = np.flatnonzero(np.abs(effect) > 0.99 * np.abs(effect).max())
     at = most[np.argmax(model.metal_frequencies[most])]
+    value, unit = 100.0 * float(effect[at].real), "% of the modulus"
     if abs(effect[at].imag) > abs(effect[at].real):
         value, unit = float(np.degrees(effect[at].imag)), "deg of phase"
-    else:
-        value, unit = 100.0 * float(effect[at].real), "% of the modulus"
     half = max(share * abs(value), 10.0 ** np.floor(np.log10(abs(value))))
     size = f"{with_interval(value, half).partition(' ')[0]} {unit}"
     every = most.size == effect.size > 1
@@ -311,9 +297,7 @@ def words_of(candidate: Candidate) -> str:
 
 def _sized(candidate: Candidate, typical: float) -> tuple[str, str]:
     """A cause of so many typical sizes in words, and that size."""
-    first = candidate.cause.parameters[0]
+    name, first = candidate.cause.name, candidate.cause.parameters[0]
     value, unit = shown(typical * first.typical, first.unit)
-    unit = {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
-    words = candidate.cause.name.replace("_", " ")
-    size = f"{three_digits(value)} {unit}"
-    return PLAIN.get(candidate.cause.name, f"{an(words)} of {{}}").format(size), size
+    size = f"{three_digits(value)} {typed(unit)}"
+    return PLAIN.get(name, f"{an(name.replace('_', ' '))} of {{}}").format(size), size

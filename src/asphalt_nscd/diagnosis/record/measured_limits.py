@@ -56,11 +56,6 @@ class Trials:
     seed: int = 0
     processes: int | None = None
 
-    @property
-    def workers(self) -> int:
-        """How many processes: as asked, else one a core."""
-        return self.processes or cores()
-
 
 def verify(diagnosis: Diagnosis, trials: Trials, progress: Progress = lambda *_: None) -> pd.DataFrame:
     """Hold the stated limits against what is found; equal on one core or many.
@@ -79,10 +74,9 @@ def verify(diagnosis: Diagnosis, trials: Trials, progress: Progress = lambda *_:
     DataFrame
         One row for each cause, place, sign and multiple.
     """
-    hidden = list(plan(diagnosis))
-    work = [(diagnosis, one, trials) for one in hidden]
+    work = [(diagnosis, one, trials) for one in plan(diagnosis)]
     rows = []
-    with ProcessPoolExecutor(min(trials.workers, max(len(work), 1))) as pool:
+    with ProcessPoolExecutor(min(trials.processes or cores(), max(len(work), 1))) as pool:
         # In the order of the plan, whichever is ready first.
         for row in pool.map(_tried, work):
             rows.append(row)
@@ -103,7 +97,7 @@ def plan(diagnosis: Diagnosis) -> Iterator[Hidden]:
     Hidden
         A cause, its place and amplitude; a cause that was named gets it on top of its own.
     """
-    observed, active = diagnosis.observed, {c.key: c for c in diagnosis.ladder.fitted.active}
+    observed, active = diagnosis.observed, {c.key: c.values for c in diagnosis.ladder.fitted.active}
     limits = report.physical_limits(diagnosis)
     for cause in CATALOGUE:
         shapes = cause.shapes(observed)
@@ -111,10 +105,7 @@ def plan(diagnosis: Diagnosis) -> Iterator[Hidden]:
             limit = limits.get((cause.name, place))
             if limit is None:
                 continue
-            there = active.get((cause.name, place))
-            own, shape = (
-                (0.0, shapes[len(shapes) // 2]) if there is None else (there.values[0], there.values[1:])
-            )
+            own, *shape = active.get((cause.name, place), (0.0, *shapes[len(shapes) // 2]))
             first = cause.parameters[0]
             for times in TIMES:
                 for sign in (1.0,) if cause.one_sided else (1.0, -1.0):
@@ -181,10 +172,8 @@ def _tried(work: tuple[Diagnosis, Hidden, Trials]) -> dict[str, Any]:
                 "std_error": error,
                 "within_interval": int(off <= CONFIDENCE * error),
             }
-    others = [
-        rung.candidate for rung in found.ladder.rungs if rung.candidate.key not in {candidate.key, *before}
-    ]
-    return row | {"named_instead": "; ".join(map(rungs.name_of, others))}
+    new = [one.candidate for one in found.ladder.rungs if one.candidate.key not in {candidate.key, *before}]
+    return row | {"named_instead": "; ".join(map(rungs.name_of, new))}
 
 
 def summarised(table: pd.DataFrame) -> dict[str, Any]:

@@ -87,9 +87,8 @@ def mix_modulus(
     modulus, slope = base.modulus(law, 2.0 * np.pi * frequency, temperature)
     along = slope / modulus[:, None]
     covariance = fitted.covariance[: law.size, : law.size]
-    within = (temperature >= observed.temperature.min() - NEAR) & (
-        temperature <= observed.temperature.max() + NEAR
-    )
+    coldest, warmest = observed.temperature.min() - NEAR, observed.temperature.max() + NEAR
+    within = (temperature >= coldest) & (temperature <= warmest)
     reduced = frequency * np.exp(base.log_shift(law, temperature)[0])
     tested = observed.frequency * np.exp(base.log_shift(law, observed.temperature)[0])
     within &= (reduced >= tested.min() / NEAR) & (reduced <= tested.max() * NEAR)
@@ -181,11 +180,8 @@ def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
     reduced /= float(np.exp(base.log_shift(law, np.array([at]))[0][0]))
     decades = float(np.log10(reduced.max() / reduced.min()))
     frequency = np.geomspace(reduced.min(), reduced.max(), round(IN_A_DECADE * decades) + 2)
-    return (
-        mix_modulus(diagnosis, np.full(frequency.size, at), frequency)
-        .table()
-        .drop(columns="within_the_tests")
-    )
+    curve = mix_modulus(diagnosis, np.full(frequency.size, at), frequency).table()
+    return curve.drop(columns="within_the_tests")
 
 
 def with_law(curve: pd.DataFrame, law: Spectrum, uncertainty: Uncertainty | None) -> pd.DataFrame:
@@ -242,10 +238,7 @@ def corrected(diagnosis: Diagnosis) -> pd.DataFrame:
         for row in range(whole.size)
     ]
     # No semicolon, which a reader of the file might take for the mark between columns.
-    reasons = [
-        ", ".join(doubts[row].reasons).replace("; ", ", ") if row in doubts else ""
-        for row in range(whole.size)
-    ]
+    reasons = {row: ", ".join(one.reasons).replace("; ", ", ") for row, one in doubts.items()}
     base, fitted = diagnosis.law_of_all()
     shift = base.log_shift(fitted.law, whole.temperature)[0]
     return pd.DataFrame(
@@ -260,6 +253,6 @@ def corrected(diagnosis: Diagnosis) -> pd.DataFrame:
             "reduced_frequency_Hz": whole.frequency * np.exp(shift),
             "corrected_for": applied,
             "status": np.where(used, "used", LEFT_OUT),
-            "doubts": reasons,
+            "doubts": [reasons.get(row, "") for row in range(whole.size)],
         }
     )

@@ -12,12 +12,7 @@ from asphalt_nscd.diagnosis.model.heldout import HeldOut
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.search.ladder import Rung
-from asphalt_nscd.diagnosis.simulation.gain import (
-    before_and_after,
-    nearest,
-    with_burgers_laws,
-    with_common_law,
-)
+from asphalt_nscd.diagnosis.simulation import gain
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import interval_95, name_at, widening
 
@@ -58,24 +53,21 @@ def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held
         Of the ladder.
     """
     observed = diagnosis.observed
-    before, after = (nearest(diagnosis, fitted, specimen) for fitted in (rung.before, rung.after))
-    gain: dict[str, Any] = {"in_sample": before_and_after(diagnosis, before, after)}
-    held_out = {}
+    before, after = (gain.nearest(diagnosis, fitted, specimen) for fitted in (rung.before, rung.after))
+    in_sample, held_out = gain.before_and_after(diagnosis, before, after), {}
     for part, count in (("isotherm", observed.isotherms.size), ("frequency", observed.frequencies.size)):
         # Of two, the one that is left predicts nothing: it has no slope, or no shift.
         if count > 2:
             before, after = (held.predictions(fitted, part) for fitted in (rung.before, rung.after))
-            held_out[f"leave_one_{part}_out"] = before_and_after(
-                diagnosis, before, after, inner=part == "isotherm"
-            )
-    gain["held_out"] = held_out
+            errors = gain.before_and_after(diagnosis, before, after, inner=part == "isotherm")
+            held_out[f"leave_one_{part}_out"] = errors
     final = _final(diagnosis, rung.candidate)
     return {
         "cause": rung.candidate.cause.name,
         "where": rung.candidate.place,
         "parameters": _parameters(diagnosis, final),
         "p_value": rung.p_value,
-        "gain": gain,
+        "gain": {"in_sample": in_sample, "held_out": held_out},
         "probability": diagnosis.probability(rung),
         "as_good": [name_of(rival) for rival in rung.rivals],
         "established": diagnosis.established(rung),
@@ -117,12 +109,11 @@ def amplitude(diagnosis: Diagnosis, candidate: Candidate) -> tuple[float, float]
 def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[str, Any]]:
     errors = diagnosis.ladder.std_errors(candidate)
     factor = widening(diagnosis.ladder.estimates_spread)
-    return {
-        parameter.name: _value(
-            value, parameter.unit, float(errors[k]), factor, candidate.shaped and k == 0 and value > 0.0
-        )
-        for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True))
-    }
+    found = {}
+    for k, (parameter, value) in enumerate(zip(candidate.cause.parameters, candidate.values, strict=True)):
+        of_logarithm = candidate.shaped and k == 0 and value > 0.0
+        found[parameter.name] = _value(value, parameter.unit, float(errors[k]), factor, of_logarithm)
+    return found
 
 
 def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
@@ -143,36 +134,28 @@ def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> 
         Of the ladder.
     """
     ladder, observed = diagnosis.ladder, diagnosis.observed
-    before = with_burgers_laws(diagnosis, specimen)
-    after = with_common_law(diagnosis, specimen)
-    held_out = {}
+    spectrum, fitted = ladder.joint.spectrum, ladder.fitted
+    before, after = gain.with_burgers_laws(diagnosis, specimen), gain.with_common_law(diagnosis, specimen)
+    held_out, parameters = {}, {}
     if observed.isotherms.size > 2:
         # A Burgers law says nothing of another temperature: before is its fit, which has seen the data.
         predicted = held.predictions(ladder.start, "isotherm")
-        held_out["leave_one_isotherm_out"] = before_and_after(diagnosis, before, predicted, inner=True)
+        held_out["leave_one_isotherm_out"] = gain.before_and_after(diagnosis, before, predicted, inner=True)
+        # Two isotherms have one shift between them; one has none.
+        parameters = _shift_constants(spectrum, fitted, widening(ladder.estimates_spread))
     if observed.frequencies.size > 2:
         without_law = HeldOut(diagnosis.baseline_joint).predictions(diagnosis.baseline, "frequency")
-        held_out["leave_one_frequency_out"] = before_and_after(
-            diagnosis, without_law, held.predictions(ladder.start, "frequency")
-        )
+        predicted = held.predictions(ladder.start, "frequency")
+        held_out["leave_one_frequency_out"] = gain.before_and_after(diagnosis, without_law, predicted)
     # As the last fit has them: a delay, say, that is not yet taken would be taken for relaxation.
-    spectrum, fitted = ladder.joint.spectrum, ladder.fitted
     shift = spectrum.log_shift(fitted.law, observed.isotherms)[0] / LN10
     return {
         "cause": "relaxation_spectrum",
         "where": None,
-        "parameters": {
-            # Two isotherms have one shift between them; one has none.
-            **(
-                _shift_constants(spectrum, fitted, widening(ladder.estimates_spread))
-                if observed.isotherms.size > 2
-                else {}
-            ),
-            "reference_temperature": _value(spectrum.reference_temperature, "degC"),
-        },
+        "parameters": parameters | {"reference_temperature": _value(spectrum.reference_temperature, "degC")},
         "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
         "p_value": diagnosis.baseline_p,
-        "gain": {"in_sample": before_and_after(diagnosis, before, after), "held_out": held_out},
+        "gain": {"in_sample": gain.before_and_after(diagnosis, before, after), "held_out": held_out},
         "as_good": [],
         "established": not diagnosis.too_few,
         "hangs_on": [],
@@ -193,12 +176,11 @@ def _shift_constants(spectrum: FlexibleSpectrum, fitted: Fitted, factor: float) 
         bent = {"shift_curvature": _value(curvature, "1/K", of_curvature, factor)}  # the other way than WLF
         return straight | (bent if curvature < -CONFIDENCE * of_curvature else {})
     of_c1, of_c2 = np.array([1.0, -1.0 / curvature]), np.array([0.0, -1.0 / curvature])  # of their logarithms
+    of_c1, of_c2 = (np.sqrt(along @ variance @ along) for along in (of_c1, of_c2))
+    c1, c2 = slope / curvature, 1.0 / curvature
     return {
-        name: _value(value, unit, value * np.sqrt(along @ variance @ along), factor)
-        for name, value, unit, along in (
-            ("wlf_C1", slope / curvature, "decades", of_c1),
-            ("wlf_C2", 1.0 / curvature, "K", of_c2),
-        )
+        "wlf_C1": _value(c1, "decades", c1 * of_c1, factor),
+        "wlf_C2": _value(c2, "K", c2 * of_c2, factor),
     }
 
 

@@ -59,11 +59,7 @@ def reading(
         "isotherms_C": observed.isotherms.tolist(),
         "quality_columns": [name for name in quality.COLUMNS if name in observed.quality],
         "limits_exceeded": above,
-        "notes": [
-            *notes,
-            *together,
-            *_quality_notes(above, observed, _shared(observed)),
-        ],
+        "notes": [*notes, *together, *_quality_notes(above, observed)],
         **({"off_target": off} if (off := _off_target(observed)) else {}),
         **({"not_tested": gaps} if (gaps := _gaps(observed)) else {}),
         **({"files_without_tests": list(without_tests)} if without_tests else {}),
@@ -105,18 +101,13 @@ def trust(
     use = ~check & ~out
     whole = [float(t) for t in observed.isotherms if (check | out)[observed.isotherm == t].all()]
     rest = use | out | np.isin(observed.isotherm, whole)
+    alone = check.any() and rest.all() and len(whole) < observed.isotherms.size
     return {
         "use": int(use.sum()),
         "check": int(check.sum()),
         "not_used": int(out.sum()),
-        **(
-            {"check_at_C": whole}
-            if check.any() and rest.all() and len(whole) < observed.isotherms.size
-            else {}
-        ),
-        "use_by_specimen": {
-            name: int(use[observed.specimen == k].sum()) for k, name in enumerate(observed.names)
-        },
+        **({"check_at_C": whole} if alone else {}),
+        "use_by_specimen": {n: int(use[observed.specimen == k].sum()) for k, n in enumerate(observed.names)},
     }
 
 
@@ -147,21 +138,17 @@ def _gaps(observed: Observations) -> list[str]:
     return [*missing[:LISTED], *more]
 
 
-def _shared(observed: Observations) -> Counter[str]:
-    """By quality column, in how many tests it exceeds its limit as in half of their isotherm and specimen or more."""
-    above, block = quality.exceeded(observed), within_isotherm.blocks(observed)
-    alike = Counter((one.column, block[one.row]) for one in above)
+def _shared(observed: Observations) -> set[str]:
+    """Quality columns that exceed their limit in half of the tests of an isotherm and specimen or more."""
+    block = within_isotherm.blocks(observed)
+    alike = Counter((one.column, block[one.row]) for one in quality.exceeded(observed))
     size = Counter(block.tolist())
-    return Counter(
-        one.column for one in above if 2 * alike[one.column, block[one.row]] >= size[block[one.row]]
-    )
+    return {column for (column, number), count in alike.items() if 2 * count >= size[number]}
 
 
-def _quality_notes(
-    above: Sequence[Mapping[str, Any]], observed: Observations, shared: Mapping[str, int]
-) -> list[str]:
+def _quality_notes(above: Sequence[Mapping[str, Any]], observed: Observations) -> list[str]:
     """A sentence for each quality limit that some tests exceed, with the worst of them; what follows if it is usual."""
-    notes = []
+    notes, shared = [], _shared(observed)
     for name, limit in quality.LIMITS.items():
         found = sorted((one for one in above if one["column"] == name), key=lambda one: -one["value"])
         if found:
@@ -170,16 +157,12 @@ def _quality_notes(
                 f"{one['value']:g} {limit.unit}"
                 for one in found[:3]
             )
+            usual = (
+                f" Half of the tests or more exceed it in {quality.where(observed, name)}: check gauges and mounting. "
+                "No single test is rejected for that."
+            )
             notes.append(
                 f"{limit.label.capitalize()} above {limit.limit:g} {limit.unit} ({limit.source}) in {len(found)} of "
-                f"{observed.size} tests: {worst}{'; and others' if len(found) > 3 else ''}."
-                + (_used_all_the_same(quality.where(observed, name)) if shared.get(name) else "")
+                f"{observed.size} tests: {worst}{'; and others' * (len(found) > 3)}.{usual * (name in shared)}"
             )
     return notes
-
-
-def _used_all_the_same(places: str) -> str:
-    return (
-        f" Half of the tests or more exceed it in {places}: check gauges and mounting. No single test is rejected for "
-        "that."
-    )

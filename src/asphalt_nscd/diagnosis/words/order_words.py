@@ -207,7 +207,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
         ("metal", "to confirm the {about}: metal must then show {other}, and 0 deg if there is none"),
         ("kept", "to confirm the {about}"),
         ("apart", "to confirm the {about}: {other} would look much the same"),
-        ("reach", "to see whether there is {about}"),
+        ("reach", "to see whether there is {about}{places}"),
     ):
         for one in helped:
             if one.kind != kind or (kind == "linear" and not (order.sweep.half_strain and one.at(order))):
@@ -219,9 +219,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
                 return f"to see an error of {one.other} in the temperature of any isotherm"
             alike = [other.place for other in helped if (other.kind, other.about) == (kind, one.about)]
             other = an(one.other) if kind == "apart" else one.other
-            return words.format(about=one.about.split(" (")[0], other=other) + (
-                _places(alike) if kind == "reach" else ""
-            )
+            return words.format(about=one.about.split(" (")[0], other=other, places=_places(alike))
     return ""
 
 
