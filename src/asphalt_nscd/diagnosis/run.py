@@ -26,15 +26,7 @@ from asphalt_nscd.diagnosis.record.measured_limits import Progress
 from asphalt_nscd.diagnosis.record.trust import reading, trust
 from asphalt_nscd.diagnosis.screening import levels, suspects, within_isotherm
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
-from asphalt_nscd.diagnosis.simulation import bond_mapping, gain
-from asphalt_nscd.diagnosis.simulation.extension import (
-    compared,
-    law_misses,
-    law_notes,
-    material_law,
-    misfit_of_form,
-    prior_notes,
-)
+from asphalt_nscd.diagnosis.simulation import bond_mapping, extension, gain
 from asphalt_nscd.diagnosis.simulation.numerics import of_campaign
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.words.summary import answer
@@ -277,12 +269,13 @@ def conclude(
     if np.unique(diagnosis.observed.isotherm[~doubtful]).size < diagnosis.observed.isotherms.size:
         doubtful[:] = False  # the rest makes no law
     # law.json is of all temperatures: one isotherm has no shift.
-    fit = None if observed.isotherms.size < 2 else material_law(diagnosis, ~doubtful, stated.law)
+    fit = None if observed.isotherms.size < 2 else extension.material_law(diagnosis, ~doubtful, stated.law)
     content, before = report.as_json(diagnosis, numerical), None
     if fit is not None:
-        content["law_misses"] = law_misses(diagnosis, fit.law, ~doubtful)
-        content["laws"] = compared(diagnosis, fit, ~doubtful)
-        content["notes"] += law_notes(diagnosis, fit.law, levels.places(*odd)) + prior_notes(fit)
+        content["law_misses"] = extension.law_misses(diagnosis, fit.law, ~doubtful)
+        content["laws"] = extension.compared(diagnosis, fit, ~doubtful)
+        content["notes"] += extension.law_notes(diagnosis, fit.law, levels.places(*odd))
+        content["notes"] += extension.prior_notes(fit)
     progress("Diagnose", 3, STEPS)
     notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
@@ -338,7 +331,7 @@ def conclude(
     law, known, curve = None, None, reported.master_curve(diagnosis)
     if fit is not None:
         if fit.covariance is not None:
-            form = misfit_of_form(diagnosis, fit.law, ~doubtful)
+            form = extension.misfit_of_form(diagnosis, fit.law, ~doubtful)
             known = Uncertainty(fit.covariance, reported.freedom_of(diagnosis), form)
         law = fit_content(fit, f"fitted ({origin})", known)
         content["law_parameters"] = law_parameters(law)

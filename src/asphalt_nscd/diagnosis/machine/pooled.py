@@ -16,17 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc
 
+from asphalt_nscd.diagnosis import criteria
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause
-from asphalt_nscd.diagnosis.criteria import (
-    ALPHA_OF_MACHINE,
-    ASTRAY,
-    DIFFERENT,
-    LARGER,
-    MOST_OF_MACHINE,
-    TWENTY_TIMES,
-    Z_95,
-)
 from asphalt_nscd.diagnosis.machine.common_faults import Common, Part, Pooled
 from asphalt_nscd.diagnosis.model import chance, fit_beside, likelihood
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
@@ -143,25 +135,25 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
         each = {cause: [_evidence(one, [*causes, cause]) for one in states] for cause in open_}
         pooled = {cause: _together(each[cause], amplitudes) for cause in open_}
         by_chance = _by_chance(states, [*causes, *open_], len(causes), draws, random)
-        threshold = float(np.quantile(by_chance, 1.0 - ALPHA_OF_MACHINE))
+        threshold = float(np.quantile(by_chance, 1.0 - criteria.ALPHA_OF_MACHINE))
         for cause in open_:
-            size = (threshold + Z_95) * pooled[cause].std_error * cause.parameters[0].typical
+            size = (threshold + criteria.Z_95) * pooled[cause].std_error * cause.parameters[0].typical
             limits.setdefault(cause.name, size)
         z_of = {cause: _z(cause, pooled[cause]) for cause in open_}
         common = [cause for cause in open_ if z_of[cause] > threshold]
-        if not common or len(causes) == MOST_OF_MACHINE:
+        if not common or len(causes) == criteria.MOST_OF_MACHINE:
             break
         gains = {cause: _gain(each[cause], amplitudes) for cause in common}
         best = _likeliest(pooled, gains, len(states))
         z = z_of[best]
-        rivals = [cause for cause in open_ if cause is not best and z**2 - z_of[cause] ** 2 < TWENTY_TIMES]
+        near = [cause for cause in open_ if z**2 - z_of[cause] ** 2 < criteria.TWENTY_TIMES]
         causes.append(best)
         amplitudes = np.append(amplitudes, pooled[best].value)
         p_value = chance.tail(by_chance, z)
         for _ in range(SETTLED):
             states = [one.with_causes(causes, amplitudes) for one in states]
             amplitudes = _all_together([_evidence(one, causes) for one in states], amplitudes)
-        as_good = tuple(cause.name for cause in rivals)
+        as_good = tuple(cause.name for cause in near if cause is not best)
         found.append(Common(best, 0.0, 0.0, 0.0, p_value, (), (), (), as_good))
     last = [_evidence(one, causes) for one in states]
     found = [_told(one, k, states, last, causes, amplitudes) for k, one in enumerate(found)]
@@ -262,7 +254,7 @@ def _together(each: Sequence[_Evidence], taken: Vector) -> _Whole:
     square, freedom = float(weight @ (value - mean) ** 2), weight.size - 1
     # Cochran's Q: chi-squared where one size holds for all.
     differ = float(chdtrc(freedom, square)) if freedom else 1.0
-    if differ < DIFFERENT:
+    if differ < criteria.DIFFERENT:
         # Moments (DerSimonian & Laird 1986): the variance between campaigns, above what their errors make.
         excess = (square - freedom) / (weight.sum() - float(weight @ weight) / weight.sum())
         wide = 1.0 / (1.0 / weight + excess)
@@ -270,7 +262,7 @@ def _together(each: Sequence[_Evidence], taken: Vector) -> _Whole:
         return _Whole(mean, error, mean / error, float(np.sqrt(excess)), differ)
     # A mixture of sound campaigns and those astray, by EM: one far off keeps 1/LARGER^2 of its weight.
     for _ in range(ITERATIONS):
-        pulled = weight * (1.0 - _astray(value - mean, weight) * (1.0 - LARGER**-2))
+        pulled = weight * (1.0 - _astray(value - mean, weight) * (1.0 - criteria.LARGER**-2))
         mean = float(pulled @ value / pulled.sum())
     error = float((pulled.sum() * free) ** -0.5)
     # A mixture is not normal: its likelihood ratio says how sure the mean is, not mean over error.
@@ -292,8 +284,8 @@ def _densities(left: Vector, weight: Vector) -> Vector:
     """Of errors (n,) of sound campaigns and of those in larger error, up to a factor: (2, n)."""
     # Farther out both densities would underflow, and no share of either be left.
     z = np.minimum(np.sqrt(weight) * np.abs(left), FARTHEST)
-    sound, wrong = np.exp(-0.5 * z**2), np.exp(-0.5 * (z / LARGER) ** 2)
-    return np.array([(1.0 - ASTRAY) * sound, ASTRAY / LARGER * wrong])
+    sound, wrong = np.exp(-0.5 * z**2), np.exp(-0.5 * (z / criteria.LARGER) ** 2)
+    return np.array([(1.0 - criteria.ASTRAY) * sound, criteria.ASTRAY / criteria.LARGER * wrong])
 
 
 def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float], campaigns: int) -> Cause:
@@ -301,7 +293,7 @@ def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float], cam
 
     def worth(cause: Cause) -> float:
         one = pooled[cause]
-        return one.z**2 if one.differ >= DIFFERENT else gains[cause] - 2.0 * (campaigns - 1)
+        return one.z**2 if one.differ >= criteria.DIFFERENT else gains[cause] - 2.0 * (campaigns - 1)
 
     return max(gains, key=worth)
 
@@ -365,7 +357,7 @@ def _told(
         isotherms,
         frequencies,
         one.as_good,
-        {name: p_value for name, p_value in tested.items() if p_value < DIFFERENT},
+        {name: p_value for name, p_value in tested.items() if p_value < criteria.DIFFERENT},
     )
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,25 +16,14 @@ from asphalt_nscd.diagnosis.model import discrepancy
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.next_tests import sweeps
 from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Linear, Tested, parts
-from asphalt_nscd.diagnosis.next_tests.sweeps import (
-    HALF,
-    Costs,
-    Sweep,
-    at_half_strain,
-    every_test,
-    noise_of,
-    on_metal,
-    scatter_of,
-    sweeps_at,
-    sweeps_on_metal,
-    temperatures,
-    with_strain,
-)
+from asphalt_nscd.diagnosis.next_tests.sweeps import HALF, Costs, Sweep, at_half_strain
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 
+Columns = Sequence[tuple[Process, slice]]  # of the nuisance, those of each process
 METAL_LEVEL = 0.03  # how well the modulus of a metal specimen and its form factor are known
 
 
@@ -112,11 +102,12 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     Possible
         The model at all tests.
     """
-    observed = with_strain(diagnosis.observed)
+    observed = sweeps.with_strain(diagnosis.observed)
     fitted, base = diagnosis.ladder.fitted, diagnosis.ladder.joint.base
     laws_between = isinstance(base, FlexibleSpectrum)  # a Burgers law says nothing of another temperature
-    table = every_test(observed, temperatures(observed) if laws_between else observed.isotherms.tolist())
-    noise = noise_of(diagnosis.noise, observed, table)
+    at_all = sweeps.temperatures(observed) if laws_between else observed.isotherms.tolist()
+    table = sweeps.every_test(observed, at_all)
+    noise = sweeps.noise_of(diagnosis.noise, observed, table)
     joint = Joint(table, base, noise)
     # A new specimen begins at the level of the mix, with the spread that specimens have.
     scales = np.append(fitted.scales, 0.0)
@@ -129,14 +120,13 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
         added = diagnosis.laboratory.factor(joint, at, noise.block)
         nuisance, precision = np.hstack([nuisance, added]), _block(precision, np.ones(added.shape[1]))
     processes, roots, variances = _discrepancy(diagnosis, joint, at)
-    of_law = nuisance.shape[1]
+    ranks = [root.shape[1] for root in roots]
+    ends = np.cumsum([nuisance.shape[1], *ranks])
+    columns = [(one, slice(a, b)) for one, (a, b) in zip(processes, pairwise(ends), strict=True)]
     nuisance = np.hstack([nuisance, *roots])
-    sizes = np.concatenate(
-        [np.full(root.shape[1], v) for root, v in zip(roots, variances, strict=True)] or [np.zeros(0)]
-    )
-    precision = _block(precision, 1.0 / sizes)
-    metal = on_metal(observed)
-    rows = _metal_rows(metal, table, processes, roots, nuisance.shape[1])
+    precision = _block(precision, 1.0 / np.repeat(variances, ranks))
+    metal = sweeps.on_metal(observed)
+    rows = _metal_rows(metal, table, columns, nuisance)
     effects = np.vstack([effects, _metal_effects(metal, candidates)])
     # Metal has a level of its own: its phase and its slope over frequency tell of the machine, its modulus hardly.
     level = np.zeros((rows.shape[0] + table.size, 1), complex)
@@ -144,22 +134,21 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     nuisance = np.hstack([np.vstack([nuisance, rows]), level])
     linear = Linear(nuisance, _block(precision, np.array([METAL_LEVEL**-2])), effects)
     n = observed.size
-    old = Tested(np.arange(n), scatter_of(noise.within[:, :n], noise.shared[:, :n], noise.block[:n]))
-    sweeps = tuple(
-        [*sweeps_at(observed, table, noise, costs), *sweeps_on_metal(metal, table.size, noise, costs)]
-    )
+    old = Tested(np.arange(n), sweeps.scatter_of(noise.within[:, :n], noise.shared[:, :n], noise.block[:n]))
+    further = [*sweeps.sweeps_at(observed, table, noise, costs)]
+    further += sweeps.sweeps_on_metal(metal, table.size, noise, costs)
     known = Knowledge(linear, [old])
     # The law stands at its best already, so that only the discrepancy moves.
     left = parts(observed.logarithm - fitted.modelled)
     moved = known.expected(parts(linear.nuisance[old.rows]).T @ np.linalg.solve(old.scatter, left))
-    departing = _departures(linear, moved, processes, roots, of_law, _doubtful(diagnosis))
+    departing = _departures(linear, moved, columns, _doubtful(diagnosis))
     departures = [
         *(Departure("linear", _halved(table, t, one, linear), isotherm=t) for t, one in departing.items()),
         *(_again(diagnosis, table, linear, one) for one in _odd(diagnosis)),
         *_repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear),
     ]
     linear = replace(linear, effects=np.column_stack([linear.effects, *(one.effect for one in departures)]))
-    return Possible(table, linear, old, sweeps, candidates, tuple(departures), metal.frequency)
+    return Possible(table, linear, old, tuple(further), candidates, tuple(departures), metal.frequency)
 
 
 def _repeats(
@@ -207,21 +196,14 @@ def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mappi
 
 
 def _departures(
-    linear: Linear,
-    moved: NDArray,
-    processes: Sequence[Process],
-    roots: Sequence[NDArray],
-    first: int,
-    doubtful: Sequence[float],
+    linear: Linear, moved: NDArray, columns: Columns, doubtful: Sequence[float]
 ) -> dict[float, NDArray[np.complex128]]:
     """By isotherm [degC], ln E* (N,) that its own discrepancy takes up."""
     found: dict[float, NDArray[np.complex128]] = {}
-    for process, root in zip(processes, roots, strict=True):
+    for process, at in columns:
         t = process.isotherm
         if t is not None and t in doubtful:
-            at = slice(first, first + root.shape[1])
             found[t] = found.get(t, 0.0) + linear.nuisance[:, at] @ moved[at]
-        first += root.shape[1]
     return found
 
 
@@ -320,18 +302,12 @@ def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> NDAr
 
 
 def _metal_rows(
-    metal: Observations,
-    table: Observations,
-    processes: Sequence[Process],
-    roots: Sequence[NDArray[np.complex128]],
-    columns: int,
+    metal: Observations, table: Observations, columns: Columns, nuisance: NDArray[np.complex128]
 ) -> NDArray[np.complex128]:
     """Of the nuisance only what the machine adds to all tests reaches the metal."""
-    rows = np.zeros((metal.size, columns), complex)
-    first = columns - sum(root.shape[1] for root in roots)
-    at = [int(np.flatnonzero(table.frequency == f)[0]) for f in metal.frequency]
-    for process, root in zip(processes, roots, strict=True):
+    rows = np.zeros((metal.size, nuisance.shape[1]), complex)
+    like = [int(np.flatnonzero(table.frequency == f)[0]) for f in metal.frequency]
+    for process, at in columns:
         if process.kind == "all":
-            rows[:, first : first + root.shape[1]] = root[at]
-        first += root.shape[1]
+            rows[:, at] = nuisance[like, at]
     return rows

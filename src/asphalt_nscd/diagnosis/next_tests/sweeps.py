@@ -335,23 +335,10 @@ def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: 
         usual = tuple(f for f in every if f >= observed.frequencies[0])
         # A part of the band saves minutes of hours, and cannot be held against its own isotherm.
         for chosen in dict.fromkeys([usual] if half else [usual, every]):
-            at = np.array([rows[f] for f in chosen])
-            yield _sweep(table.names[specimen], temperature, chosen, half, at, noise, costs)
-
-
-def _sweep(
-    specimen: str,
-    temperature: float,
-    chosen: tuple[float, ...],
-    half: bool,
-    at: NDArray[np.int64],
-    noise: Noise,
-    costs: Costs,
-) -> Sweep:
-    one = np.zeros(at.size, int)
-    source = np.minimum(at, noise.within.shape[1] - 1)
-    tested = Tested(at, scatter_of(noise.within[:, source], noise.shared[:, source], one))
-    return Sweep(specimen, temperature, chosen, half, tested, costs.hours(specimen, temperature, chosen))
+            at, name = np.array([rows[f] for f in chosen]), table.names[specimen]
+            scatter = scatter_of(noise.within[:, at], noise.shared[:, at], np.zeros(at.size, int))
+            hours = costs.hours(name, temperature, chosen)
+            yield Sweep(name, temperature, chosen, half, Tested(at, scatter), hours)
 
 
 def on_metal(observed: Observations) -> Observations:
