@@ -285,7 +285,7 @@ def conclude(
         content["numerics"]["campaign"] = of_campaign(
             simulated.campaign, observed.temperature, observed.frequency
         )
-        before = _begin_with_campaigns(content, diagnosis, numerical, simulated.campaign, simulated.facets)
+        before = _begin_with_campaigns(content, diagnosis, numerical, simulated)
     content["origin"] = origin
     loo = within_isotherm.leave_one_out(observed)
     one_sided = "" if diagnosis.ladder.rungs else suspects.one_sided(observed, loo)
@@ -368,14 +368,11 @@ def law_parameters(law: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
 
 
 def _begin_with_campaigns(
-    content: dict[str, Any],
-    diagnosis: Diagnosis,
-    specimen: NumericalSpecimen,
-    simulations: str | Path,
-    facets: str | Path | None,
+    content: dict[str, Any], diagnosis: Diagnosis, specimen: NumericalSpecimen, simulated: Simulated
 ) -> NDArray[np.complex128]:
     """Put what was simulated before the ladder: its first rung, and the errors before the law. ln E* (n,) of it."""
-    observed = diagnosis.observed
+    observed, simulations, facets = diagnosis.observed, simulated.campaign, simulated.facets
+    assert simulations is not None
     before = after = bond_mapping.simulated(simulations, observed)
     rung = None
     if facets is None:

@@ -93,9 +93,7 @@ class Pooled:
 
     def __str__(self) -> str:
         """What the campaigns have in common, for a reader: sentences, one a line."""
-        said = [_sentence(one) for one in self.found]
-        if not self.found:
-            said.append("Nothing common to the campaigns stands out.")
+        said = [_sentence(one) for one in self.found] or ["Nothing common to the campaigns stands out."]
         rest = [
             f"{name.replace('_', ' ')} of {three_digits(value)} {unit}"
             for name, size in self.limits.items()
@@ -105,9 +103,8 @@ class Pooled:
         if rest:
             said.append(f"Together they would mostly show a common {joined(rest, 'or')}.")
         if self.left_out:
-            said.append(
-                f"Not used for this: {joined(self.left_out)}; one isotherm, or no law common to its isotherms."
-            )
+            why = "one isotherm, or no law common to its isotherms"
+            said.append(f"Not used for this: {joined(self.left_out)}; {why}.")
         return "\n".join(said)
 
 

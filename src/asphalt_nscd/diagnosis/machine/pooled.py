@@ -385,10 +385,9 @@ def _apart(
     covariance = np.linalg.pinv(precision, hermitian=True)
     value = covariance @ score[seen]
     unit = causes[-1].parameters[0].typical
-    told = tuple(
-        Part(f"{name:g} {word}", float(v * unit), float(np.sqrt(max(c, 0.0)) * unit))
-        for name, v, c in zip(labels[seen], value, np.diag(covariance), strict=True)
-    )
+    error = np.sqrt(np.maximum(np.diag(covariance), 0.0)) * unit
+    each = zip(labels[seen], value * unit, error, strict=True)
+    told = tuple(Part(f"{name:g} {word}", float(v), float(std_error)) for name, v, std_error in each)
     together = np.ones(value.size)
     whole = float(together @ precision @ together)
     mean = float(together @ score[seen]) / whole if whole > 0.0 else 0.0

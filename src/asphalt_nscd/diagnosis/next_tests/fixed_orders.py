@@ -104,10 +104,8 @@ def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, An
         names = [one["specimen"] for one in here]
         most = max(abs(one["measured_C"] - t) for one in here)
         many = len(here) > 1
-        purpose = (
-            f"because {'they were' if many else 'it was'} measured {'up to ' * many}{most:.2g} K off "
-            f"{'their' if many else 'its'} target"
-        )
+        they, their = ("they were", "their") if many else ("it was", "its")
+        purpose = f"because {they} measured {'up to ' * many}{most:.2g} K off {their} target"
         why = (
             f"AASHTO T 378 allows {OFF_TARGET:g} K. Look into the record first. If the temperature there is a slip, "
             "correct it and run this again. If not, use the new tests."
@@ -178,12 +176,7 @@ def _order(
 
 
 def _content(
-    act: str,
-    why: tuple[str, str],
-    hours: float,
-    specimens: list[str],
-    at: list[float],
-    frequencies: list[float],
+    act: str, why: tuple[str, str], hours: float, names: list[str], at: list[float], frequencies: list[float]
 ) -> dict[str, Any]:
     return {
         "text": f"{hours:.1f} h: {act}.",
@@ -191,7 +184,7 @@ def _content(
         "why": [why[1]],
         "hours": round(hours, 2),
         "nats": 0.0,
-        "specimens": specimens,
+        "specimens": names,
         "temperature_C": at[0] if len(at) == 1 else None,
         "frequencies_Hz": frequencies,
         "half_strain": False,

@@ -156,22 +156,16 @@ def _repeats(
 ) -> Iterator[Departure]:
     """By how much each test that cannot be used departs from what the others say of it, at the row that repeats it."""
     whole = diagnosis.whole or diagnosis.observed
-    for one in diagnosis.suspects:
-        if one.used:
-            continue
-        name, t, f = whole.names[whole.specimen[one.row]], whole.isotherm[one.row], whole.frequency[one.row]
-        again = (
-            (table.specimen == whole.specimen[one.row])
-            & (table.isotherm == t)
-            & (table.frequency == f)
-            & ~at_half_strain(table)
-        )
+    usual = ~at_half_strain(table)
+    for one in [suspect for suspect in diagnosis.suspects if not suspect.used]:
+        k, t, f = whole.specimen[one.row], whole.isotherm[one.row], whole.frequency[one.row]
+        again = (table.specimen == k) & (table.isotherm == t) & (table.frequency == f) & usual
         if again.any():
             # Tests to come stand behind those done: the last such row is the repetition.
             row = int(np.flatnonzero(again)[-1])
             effect = np.zeros(linear.effects.shape[0], complex)
             effect[row] = whole.logarithm[one.row] - expected[row]
-            yield Departure("repeat", effect, name, float(t), float(f))
+            yield Departure("repeat", effect, whole.names[k], float(t), float(f))
 
 
 def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:

@@ -190,19 +190,13 @@ def summarised(table: pd.DataFrame) -> dict[str, Any]:
         Of each cause, how often it was named, and how often it should have been.
     """
     out: dict[str, Any] = {}
-    for cause, rows in table.groupby("cause", sort=True):
-        times = rows["times_limit"].abs()
-        out[str(cause)] = {
-            f"{multiple:g}": {
-                "tried": int(at.sum()),
-                "named": int(rows.loc[at, "named"].sum()),
-                "within_interval": int(rows.loc[at, "within_interval"].sum()),
-                "other_named": int((rows.loc[at, "named_instead"] != "").sum()),
-                "stated_power": stated_power(multiple),
-            }
-            for multiple in TIMES
-            for at in [times == multiple]
-            if at.any()
+    for (cause, multiple), rows in table.groupby(["cause", table["times_limit"].abs()], sort=True):
+        out.setdefault(str(cause), {})[f"{multiple:g}"] = {
+            "tried": len(rows),
+            "named": int(rows["named"].sum()),
+            "within_interval": int(rows["within_interval"].sum()),
+            "other_named": int((rows["named_instead"] != "").sum()),
+            "stated_power": stated_power(float(multiple)),
         }
     return out
 

@@ -42,7 +42,9 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         ladder.append(of_law(diagnosis, specimen, held))
     ladder += [of_cause(diagnosis, rung, specimen, held) for rung in diagnosis.ladder.rungs]
     spread = diagnosis.ladder.estimates_spread
-    remaining = diagnosis.ladder.remaining
+    left, pattern = diagnosis.ladder.remaining, None
+    if left is not None:
+        pattern = {"pattern": left.pattern, "p_value": left.p_value, "z": float(np.sqrt(left.gain))}
     modulus_scatter, phase_scatter = diagnosis.noise.sigma
     return {
         "schema_version": SCHEMA_VERSION,
@@ -82,13 +84,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
             if diagnosis.verdict == "unexplained_structure"
         ],
         "lack_of_fit_p_value": diagnosis.law_p,
-        "largest_pattern_left": None
-        if remaining is None
-        else {
-            "pattern": remaining.pattern,
-            "p_value": remaining.p_value,
-            "z": float(np.sqrt(remaining.gain)),
-        },
+        "largest_pattern_left": pattern,
         "unexplained": _unexplained(diagnosis),
         "notes": [*diagnosis.notes, *_spread_note(spread)],
     }
@@ -137,9 +133,8 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
     out += [(name_of(one), one.cause.shows_in) for one in ladder.unseen if one.key not in shown]
     seen = physical_limits(diagnosis)
     nowhere = {name for name, _ in ladder.limits} - {name for name, _ in seen}
-    beyond = {
-        name_at(name, None if name in nowhere else place) for name, place in ladder.limits.keys() - seen
-    }
+    unreached = ladder.limits.keys() - seen
+    beyond = {name_at(name, None if name in nowhere else place) for name, place in unreached}
     out += [
         (name, "other tests: in these, only an impossibly large one would show") for name in sorted(beyond)
     ]

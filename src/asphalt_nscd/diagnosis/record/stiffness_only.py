@@ -185,9 +185,8 @@ def fit_stiffness(campaign: Campaign) -> StiffnessOnly:
         For one temperature.
     """
     table = campaign.table
-    temperature, frequency, modulus = (
-        table.numbers(name, LIMITS[name]) for name in ("temperature_C", "frequency_Hz", "E_MPa")
-    )
+    columns = ("temperature_C", "frequency_Hz", "E_MPa")
+    temperature, frequency, modulus = (table.numbers(name, LIMITS[name]) for name in columns)
     specimen = np.array(table.text("specimen"))
     isotherm = nominal_temperatures(table, temperature)
     require_enough(modulus.size, np.unique(frequency).size)
@@ -202,9 +201,8 @@ def fit_stiffness(campaign: Campaign) -> StiffnessOnly:
 
     def residual(x: Vector) -> Vector:
         law, _ = _log10_modulus(x[:6], reference, temperature, frequency)
-        return np.concatenate(
-            [(observed - law - member @ x[6:]) / size, (x[:6] - USUAL) / STRAYS, x[6:] / usual]
-        )
+        of_tests = (observed - law - member @ x[6:]) / size
+        return np.concatenate([of_tests, (x[:6] - USUAL) / STRAYS, x[6:] / usual])
 
     def jacobian(x: Vector) -> NDArray[np.float64]:
         _, slope = _log10_modulus(x[:6], reference, temperature, frequency)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from functools import partial
 from textwrap import wrap
 
 from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
@@ -28,6 +29,7 @@ WIDTH, LABEL = 100, 16  # columns of a terminal, and those of them for labels
 MOST = 4  # sentences of a row; a reader finds the others in the reasons
 PARTS = 2  # of what stays unexplained
 FEW = 6  # specimens that are named one by one
+_wrapped = partial(wrap, width=WIDTH, break_long_words=False, break_on_hyphens=False)
 MORE = "{} more: see the reasons."
 TYPE_NOT_GIVEN = (
     "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. Say whether it "
@@ -96,14 +98,8 @@ def text(content: Content) -> str:
         above = label
         for k, sentence in enumerate(said):
             first = f"{label if k == 0 else '':{LABEL}}"
-            lines += wrap(
-                sentence,
-                WIDTH,
-                initial_indent=first,
-                subsequent_indent=" " * (LABEL + 3 * (label == "Next tests")),
-                break_long_words=False,
-                break_on_hyphens=False,
-            )
+            after = " " * (LABEL + 3 * (label == "Next tests"))
+            lines += _wrapped(sentence, initial_indent=first, subsequent_indent=after)
     return "\n".join(lines)
 
 
@@ -197,10 +193,8 @@ def _no_fault(content: Content, possible: bool, effects: bool) -> list[str]:
     said = "None is certain" if possible else "None found" + f" beside {joined(beside)}" * bool(beside)
     at = len(sentences.isotherms(content))
     if 0 < at < LEAST_ISOTHERMS:
-        there = "is" if at == 1 else "are"
-        said += (
-            f", and none could be proved: that takes {LEAST_ISOTHERMS} temperatures, and there {there} {at}"
-        )
+        there = f"there {'is' if at == 1 else 'are'} {at}"
+        said += f", and none could be proved: that takes {LEAST_ISOTHERMS} temperatures, and {there}"
     return [f"{said}."]
 
 
@@ -348,20 +342,16 @@ def _contradictions(found: list[Content]) -> list[str]:
                 f"At {at} degC the phase is up to {most} {side} than |E*| requires (about 90 deg times the slope "
                 f"of log |E*| against log f). Check strain level, load control and gauges, {again}"
             )
-    return said + [
-        f"{one['sentence']} Check the channels and their settings there, {again}" for one in turned
-    ]
+    look = "Check the channels and their settings there"
+    return said + [f"{one['sentence']} {look}, {again}" for one in turned]
 
 
 def _scatter(content: Content) -> list[str]:
     found = content.get("repeatability") or {}
-    ways = {
-        "between": "between specimens",
-        "within": "within one specimen, after removing its mean deviation",
-    }
+    within = "within one specimen, after removing its mean deviation"
     said = [
         f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase"
-        for way, words in ways.items()
+        for way, words in (("between", "between specimens"), ("within", within))
         if found.get(way) is not None
     ]
     return [f"Standard deviation {'; '.join(said)}."] if said else []

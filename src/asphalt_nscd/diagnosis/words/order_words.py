@@ -198,12 +198,11 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
         "to ...".
     """
     helped = [questions[k] for k in order.helps]
-    here = f"{order.sweep.temperature:g} degC"
     again = [one.departure.frequency for one in helped if one.kind == "repeat" and one.departure]
     for kind, words in (
         ("repeat", f"because the old result at {_frequencies(again)} contradicts the other frequencies"),
         ("level", "to see whether the odd result repeats itself"),
-        ("linear", f"to see whether the mix is linear at {here}"),
+        ("linear", f"to see whether the mix is linear at {order.sweep.temperature:g} degC"),
         ("metal", "to confirm the {about}: metal must then show {other}, and 0 deg if there is none"),
         ("kept", "to confirm the {about}"),
         ("apart", "to confirm the {about}: {other} would look much the same"),
@@ -299,9 +298,8 @@ def in_a_sentence(one: Order, done: Observations) -> str:
     where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
     half = ", at half the strain" if one.sweep.half_strain else ""
     again = " again" if _all_tested(one, done) else ""
-    return (
-        f"{one.hours:.1f} h: test {named(one.specimens)}{again}{where}, {band(one.sweep.frequencies)}{half}."
-    )
+    what = f"{named(one.specimens)}{again}{where}, {band(one.sweep.frequencies)}{half}"
+    return f"{one.hours:.1f} h: test {what}."
 
 
 def _all_tested(one: Order, done: Observations) -> bool:

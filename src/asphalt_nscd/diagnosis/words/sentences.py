@@ -10,25 +10,16 @@ from typing import Any
 
 import numpy as np
 
+from asphalt_nscd.diagnosis import written
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
-from asphalt_nscd.diagnosis.written import (
-    CONFINED_TO,
-    interval_95,
-    name_at,
-    shown,
-    three_digits,
-    widening,
-    with_interval,
-)
+from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import counted, joined, specimen_named
 
 Content = Mapping[str, Any]
 SIGNS = {cause.name: cause.signs for cause in CATALOGUE if cause.signs is not None}
-BOUNDS = {
-    cause.name: [x for x in (cause.parameters[0].low, cause.parameters[0].high) if x] for cause in CATALOGUE
-}
+BOUNDS = {cause.name: {cause.parameters[0].low, cause.parameters[0].high} - {0.0} for cause in CATALOGUE}
 ORIGINS = {
     "measured": "No file says that the data are synthetic or reconstructed: they are taken for measurements.",
     "digitised": "The data were read off figures; what is found may be an error of that reading.",
@@ -232,7 +223,7 @@ def widened(content: Content) -> float:
     float
         One where the tests lie as near to the fit as their scatter explains, else above one.
     """
-    return widening(content.get("estimates_spread", 1.0))
+    return written.widening(content.get("estimates_spread", 1.0))
 
 
 def origin(content: Content) -> list[str]:
@@ -361,7 +352,7 @@ def _sure(rung: Content, content: Content) -> str:
 def _doubts(rung: Content, content: Content) -> list[str]:
     """Why a name is not certain, a sentence each without its full stop."""
     doubts = []
-    known = {name_at(one["cause"], one["where"]) for one in content["ladder"]}
+    known = {written.name_at(one["cause"], one["where"]) for one in content["ladder"]}
     also = joined([in_words(name) for name in rung["as_good"] if name in known])
     others = joined([in_words(name) for name in rung["as_good"] if name not in known], "or")
     if others:
@@ -450,7 +441,7 @@ def in_words(name: str) -> str:
         As `cause_words` gives it.
     """
     cause, _, place = name.partition(" @ ")
-    where = float(place) if place and CONFINED_TO.get(cause) == "temperature_C" else place or None
+    where = float(place) if place and written.CONFINED_TO.get(cause) == "temperature_C" else place or None
     return cause_words({"cause": cause, "where": where})
 
 
@@ -546,13 +537,13 @@ def estimate(one: Content, factor: float = 1.0) -> str:
     value, unit = shown(one["value"], one["unit"])
     if one["std_error"] is None:
         return f"{three_digits(value)} {typed(unit)}".rstrip()
-    low, high = interval_95(one["value"], one["std_error"], factor)
+    low, high = written.interval_95(one["value"], one["std_error"], factor)
     told = one.get("interval_95") or (low, high)
     if not np.isclose(sum(told), low + high, rtol=1e-6, atol=0.0):  # of the logarithm
         ends = " to ".join(three_digits(shown(end, one["unit"])[0]) for end in told)
         return f"{three_digits(value)} ({ends}) {typed(unit)}"
     half = shown(0.5 * (high - low), one["unit"])[0]
-    return f"{with_interval(value, half)} {typed(unit)}".rstrip()
+    return f"{written.with_interval(value, half)} {typed(unit)}".rstrip()
 
 
 def _factor(rung: Content, content: Content) -> float:
