@@ -240,7 +240,7 @@ class RunOptions:
     checkpoint: Checkpoint | None = None
     frames: int = 0
     most_broken: float = 1.0
-    most_closed: float = 1.0
+    most_closed: float = 0.1
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,6 @@ from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import of_chain
 
 MOST_BROKEN = 0.02  # of the bonds; beyond, the specimen no longer follows its law
-MOST_CLOSED = 0.1  # of the gaps
 
 
 @dataclass(frozen=True)
@@ -109,7 +108,7 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     ------
     InputError
         Where the specimen breaks in two, or so many bonds break that the full equations go on, and more than
-        `MOST_BROKEN` of them, or more than `MOST_CLOSED` of its gaps close.
+        `MOST_BROKEN` of them, or so many of its gaps close that strains are no longer small.
     """
     chain = law.as_chain() if isinstance(law, Burgers) else law
     dt, geometry = held.time_step, model.geometry
@@ -124,7 +123,7 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
         # held from the first step on, as in the closed forms: no ramp
         path = np.full(held.steps, held.displacement_m or geometry.usual_amplitude(), float)
     # a load beyond the strength would break bond after bond, and the contacts of each be solved: minutes
-    options = RunOptions(most_broken=MOST_BROKEN, most_closed=MOST_CLOSED)
+    options = RunOptions(most_broken=MOST_BROKEN)
     try:
         run = runs.by_path(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, options)
     except ArithmeticError as error:
