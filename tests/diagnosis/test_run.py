@@ -138,16 +138,16 @@ def test_estimates_that_spread_further_than_their_errors_widen_the_limits():
 
 def test_what_is_named_without_the_doubtful_tests():
     found = diagnose(table(3, lambda e, s, t, w: e * np.exp(1.5e-4j * w)), draws=500)
-    assert run.without_doubtful(found, None, 0) is None  # none is doubtful
+    assert run.second_opinions(found, None, 0)["without_doubtful"] is None  # none is doubtful
     least = int(np.ceil(run.MATTERING * found.observed.size))
     found.suspects = tuple(Suspect(row, ("a reason",), True) for row in range(least))
-    then = run.without_doubtful(found, None, 0)
+    then = run.second_opinions(found, None, 0)["without_doubtful"]
     assert then is not None
     assert [one["cause"] for one in then["causes"]] == ["relaxation_spectrum", "channel_delay"]
     found.suspects = found.suspects[1:]  # too few to matter
-    assert run.without_doubtful(found, None, 0) is None
+    assert run.second_opinions(found, None, 0)["without_doubtful"] is None
     found.suspects = tuple(Suspect(row, ("a reason",), True) for row in range(found.observed.size - 1))
-    assert run.without_doubtful(found, None, 0) is None  # nothing is left to diagnose
+    assert run.second_opinions(found, None, 0)["without_doubtful"] is None  # nothing is left to diagnose
 
 
 @pytest.mark.parametrize("several", [True, False])

@@ -293,7 +293,7 @@ def conclude(
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)
     content["odd_levels"], content["odd_phases"] = odd
     content["odd_temperatures"] = temperatures
-    content |= _second_opinions(diagnosis, scatter, draws.seed)
+    content |= second_opinions(diagnosis, scatter, draws.seed)
     progress("Diagnose", 4, STEPS)
     ahead = fixed_orders.off_target(observed, Costs(), content["reading"].get("off_target", []))
     ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
@@ -391,12 +391,26 @@ def _begin_with_campaigns(
     return before
 
 
-def _second_opinions(
+def second_opinions(
     diagnosis: Diagnosis, scatter: tuple[float, float] | None, seed: int
 ) -> dict[str, dict[str, Any] | None]:
     """What is named with the tests that were set aside, and without the doubtful ones; None where nobody asks.
 
     Without them: only where something was named, and they are not few. Too many leave no table that can be diagnosed.
+
+    Parameters
+    ----------
+    diagnosis : Diagnosis
+        Finished.
+    scatter : tuple of float, optional
+        Stated, as `diagnose` takes it.
+    seed : int
+        Of the draws.
+
+    Returns
+    -------
+    dict
+        "with_suspects" and "without_doubtful": verdict and causes, or None.
     """
 
     def named(tests: Observations) -> dict[str, Any]:
