@@ -7,7 +7,7 @@
 #   make lint       ruff and mypy
 #   make blind      blind tests of the diagnosis: hidden effects, found or not; in the real tables of a folder
 #                   too, if ASPHALT_NSCD_TABLES names it
-#   make attack     a second program against the diagnosis, with tables as laboratories produce them: ten minutes
+#   make attack     a second program against the diagnosis, with tables as laboratories produce them: half an hour
 #                   of a core; config/attack.yaml says how many tables
 #   make verify     the core against theory: results/verification/verification.csv
 #   make check      published results made again where that is cheap, and compared: minutes

@@ -122,3 +122,21 @@ def test_a_bond_at_mid_gap_is_too_soft():
 def test_no_row_of_the_verification_failed():
     assert (published("verification/verification").verdict == "passed").all()
     assert "Rows that passed; none failed:" in page("core")
+
+
+def test_what_the_attack_finds():
+    text, cases = page("trust"), published("attack/cases")
+    number = cases.table.str.extract(r"^table (\d+)$")[0].astype(float)
+    found = cases[(cases.suite == "catalogue") & (cases.ratio == 3)].assign(number=number)
+    seen, fresh = found[found.number <= 24], found[found.number > 24]
+    assert seen.named.all() and f"in them all {len(seen)} causes are named at three limits" in text
+    assert (
+        number.max() == 96 and f"in the 72 others {fresh.named.sum()} of {len(fresh)} at three limits" in text
+    )
+    others = fresh[fresh.fault != "secondary_process"]
+    assert f"of all other causes {others.named.sum()} of {len(others)}" in text
+    assert len(fresh) - len(others) == 7 and fresh.named.sum() - others.named.sum() == 3
+    stated = published("attack/reliability").set_index("stated")
+    for group, said in (("0.95 - 0.99", "above 95 %, {}"), ("0.7 - 0.9", "at 83 % on average, {}")):
+        row = stated.loc[group]
+        assert said.format(f"{row.hits:.0f} of {row.n:.0f}") in text
