@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.record.trust import reading
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.campaign import Campaign
@@ -61,6 +62,22 @@ def test_what_was_reduced_is_read_as_it_was_measured(tmp_path, header, rows, amp
 
 
 GRID = [f"{s},{t},{f},9000,20" for s in "AB" for t in (0, 10) for f in (1, 10)]
+
+
+def test_a_sweep_noted_at_another_temperature_is_off_its_target(tmp_path):
+    grid = [
+        f"{s},{t},{f},9000,20,{z}" for s in "AB" for t in (0, 10, 20) for f in (1, 10) for z in (3e-5, 6e-5)
+    ]
+    rows = [row.replace("B,10,", "B,11.7,") for row in grid]
+    header = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg,amplitude_m"
+    observed, _ = read_observations(table(tmp_path, header, rows), PAPER_GEOMETRY)
+    assert observed.isotherms.tolist() == [0.0, 10.0, 20.0] and 11.7 in observed.temperature
+    assert reading(observed, [])["off_target"] == [
+        {"specimen": "B", "temperature_C": 10.0, "measured_C": 11.7}
+    ]
+    targets = [f"{row},{row.split(',')[1]}" for row in rows]
+    meant, _ = read_observations(table(tmp_path, f"{header},nominal_temperature_C", targets), PAPER_GEOMETRY)
+    assert meant.isotherms.tolist() == [0.0, 10.0, 11.7, 20.0]
 
 
 def test_frequencies_that_scatter_by_a_per_cent_are_one(tmp_path):

@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.files.csvinput import Table
-from asphalt_nscd.measurements.campaign import isotherm_notes, isotherms, nominal_temperatures
+from asphalt_nscd.measurements.campaign import (
+    isotherm_notes,
+    isotherms,
+    nominal_temperatures,
+    with_sweeps_apart,
+)
 
 
 def grouped(*temperature, tests=None):
@@ -87,3 +92,23 @@ def test_notes_say_what_was_put_together_and_what_is_off_its_target():
     assert together == "Isotherms in degC: 4 (measured 4 to 4.1), 20, 37 (measured 36.2)."
     assert "1 of 4 tests, at worst 36.2 instead of 37 degC" in off
     assert isotherm_notes(nominal, nominal) == []
+
+
+@pytest.mark.parametrize(
+    ("sweeps", "belongs_to"),
+    [
+        ({"A": (0, 10, 20), "B": (0, 10, 20), "C": (0, 11.7, 20)}, {11.7: 10.0}),
+        ({"A": (0, 10, 20), "B": (0, 10, 21.7), "C": (1.5, 10, 20)}, {1.5: 0.0, 21.7: 20.0}),
+        ({"A": (0, 10, 20), "B": (0, 11.7, 20)}, {11.7: 10.0}),  # the rounder of two
+        ({"A": (-8.3, 0, 20), "B": (-10, 0, 20)}, {-8.3: -10.0}),
+        ({"A": (0, 10, 20), "B": (0, 13, 20)}, {}),  # targets are so far apart
+        ({"A": (0, 10, 20), "B": (0, 10, 11.7, 20)}, {}),  # B was tested at both
+        ({"A": (0, 10, 20), "B": (0, 10, 20), "C": (0, 12, 20), "D": (0, 12, 20)}, {}),  # so were two
+        ({"A": (10, 20), "B": (12, 20)}, {}),  # the grids have one temperature in common
+    ],
+)
+def test_a_sweep_of_one_specimen_belongs_to_the_isotherm_that_it_lacks(sweeps, belongs_to):
+    specimen = np.array([name for name, at in sweeps.items() for _ in at])
+    given = np.array([t for at in sweeps.values() for t in at], float)
+    expected = [belongs_to.get(t, t) for t in given]
+    assert with_sweeps_apart(given, specimen).tolist() == expected

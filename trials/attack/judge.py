@@ -99,7 +99,8 @@ def told(fault: Fault, campaign: Campaign, content: Content, answer: str) -> boo
         ]
         return None in own or len(own) >= HALF * len(campaign.isotherms)
     if fault.kind in ("temperature of one specimen on one isotherm", "wrong recorded temperature"):
-        return any(_sweep(one, fault) for one in content.get("odd_temperatures", []))
+        odd = [*content.get("odd_temperatures", []), *content.get("reading", {}).get("off_target", [])]
+        return any(_sweep(one, fault) for one in odd)
     if fault.kind == "offset of one isotherm":
         return any(
             _same(one["temperature_C"], fault.temperature)

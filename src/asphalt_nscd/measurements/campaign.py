@@ -13,6 +13,7 @@ from asphalt_nscd.files.csvinput import Table
 
 READINGS_APART = 0.5  # K; neighbours in one isotherm are no further apart: T 378 holds +- 0.5 K
 WIDEST_ISOTHERM = 1.0  # K between the coldest and the warmest reading of one isotherm
+TARGETS_APART = 3.0  # K between two temperatures that a laboratory means to test at
 OFF_TARGET = 0.5  # K that T 378 lets the mean temperature of a test stray from its target
 
 
@@ -104,6 +105,39 @@ def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDAr
         if near.size:
             nominal[row] = near[np.argmin(np.abs(near - temperature[row]))]
     return nominal
+
+
+def with_sweeps_apart(nominal: NDArray[np.float64], specimen: NDArray) -> NDArray[np.float64]:
+    """Isotherms, a sweep that one specimen alone has put to the one that it lacks.
+
+    Their temperatures are less than TARGETS_APART from each other, and the specimens have two more in common: the
+    record of the sweep is wrong, or its bath was. Of two single sweeps the rounder temperature is the isotherm's.
+
+    Parameters
+    ----------
+    nominal : ndarray (n,)
+        Of the isotherms [degC].
+    specimen : ndarray (n,)
+        Of each test.
+
+    Returns
+    -------
+    ndarray
+        (n,) Nominal temperature [degC].
+    """
+    out = nominal.copy()
+    at = {float(t): set(specimen[nominal == t].tolist()) for t in np.unique(nominal)}
+
+    def rank(t: float) -> tuple[int, int]:
+        return len(at[t]), -len(f"{t:g}".lstrip("-"))
+
+    for t, own in at.items():
+        lacked = [u for u in at if 0.0 < abs(u - t) < TARGETS_APART and not own & at[u]]
+        best = max(lacked, key=lambda u: (rank(u), -u), default=t)
+        shared = sum(bool(own & there) and bool(at[best] & there) for there in at.values())
+        if len(own) == 1 and shared > 1 and (rank(best), -best) > (rank(t), -t):
+            out[nominal == t] = best
+    return out
 
 
 def _one_target(

@@ -112,6 +112,9 @@ def test_a_wrongly_noted_temperature_must_not_become_a_bias():
     biased = row(noted, "slip", ladder=[entry("temperature_bias", where=20.0, established=False)])
     assert biased["wrong_possible"] == 1 and not biased["told"]
     assert row(noted, "slip", odd_temperatures=[{"specimen": "S1", "temperature_C": 21.7}])["told"]
+    off = {"specimen": "S1", "temperature_C": 20.0, "measured_C": 21.7}
+    assert row(noted, "slip", reading={"off_target": [off]})["told"]
+    assert not row(noted, "slip", reading={"off_target": [off | {"specimen": "S2"}]})["told"]
 
 
 def test_intervals_with_zero_and_causes_kept_back_are_seen():

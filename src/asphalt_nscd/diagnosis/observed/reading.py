@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.files.csvinput import Limits, Table, read_csv
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
+from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures, with_sweeps_apart
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, PICKED, is_reduced, reduced_frame
 from asphalt_nscd.measurements.signs import wrong_sign
@@ -115,6 +115,8 @@ def read_observations(
     mass = np.array([mass_factor(geometries[name]) if by_force else 0.0 for name in names])
     temperature, frequency = frame["temperature_C"].to_numpy(float), frame["frequency_Hz"].to_numpy(float)
     nominal = nominal_temperatures(table, temperature)
+    if "nominal_temperature_C" not in table.columns:
+        nominal = with_sweeps_apart(nominal, specimen)
     isotherm = temperature if (nominal == temperature).all() else nominal
     # T 378 sets strains from peak to peak, and displacements elsewhere are amplitudes.
     strain = table.numbers_or_nan("microstrain") * HALF_MICRO

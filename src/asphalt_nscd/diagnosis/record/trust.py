@@ -114,14 +114,12 @@ def trust(
 def _off_target(observed: Observations) -> list[dict[str, Any]]:
     """Isotherms of a specimen measured further from their target than T 378 allows, and their mean temperature."""
     found = []
-    block = within_isotherm.blocks(observed)
-    for number in np.unique(block):
-        rows = np.flatnonzero(block == number)
-        measured, target = float(observed.temperature[rows].mean()), float(observed.isotherm[rows[0]])
+    for k, t in np.unique(np.column_stack([observed.specimen, observed.isotherm]), axis=0):
+        measured = float(observed.temperature[(observed.specimen == k) & (observed.isotherm == t)].mean())
         # Readings have a tenth of a degree: 0.5 is not above 0.5 whatever the last bit says.
-        if abs(measured - target) > OFF_TARGET + 1e-9:
-            name = observed.names[observed.specimen[rows[0]]]
-            found.append({"specimen": name, "temperature_C": target, "measured_C": round(measured, 2)})
+        if abs(measured - t) > OFF_TARGET + 1e-9:
+            name = observed.names[int(k)]
+            found.append({"specimen": name, "temperature_C": float(t), "measured_C": round(measured, 2)})
     return found
 
 
