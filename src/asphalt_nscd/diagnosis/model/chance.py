@@ -257,11 +257,11 @@ def structures(observed: Observations) -> list[Structure]:
         at = observed.cell == cell
         row = int(np.flatnonzero(at)[0])
         patterns[f"{observed.isotherm[row]:g} degC, {observed.frequency[row]:g} Hz"] = at
-    return _both(patterns) + specimen_structures(observed)
+    return _both(patterns) + structures_of_replicates(observed)
 
 
-def specimen_structures(observed: Observations) -> list[Structure]:
-    """Nameless patterns of one specimen against the others.
+def structures_of_replicates(observed: Observations) -> list[Structure]:
+    """Nameless patterns by which tests of one condition may differ: one specimen, the course of the tests.
 
     Parameters
     ----------
@@ -273,16 +273,18 @@ def specimen_structures(observed: Observations) -> list[Structure]:
     list of Structure
         Of modulus and of phase.
     """
-    if len(observed.names) < 2:
-        return []
-    log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()
-    above = observed.temperature - observed.temperature.mean()
     patterns = {}
-    for k, name in enumerate(observed.names):
-        at = observed.specimen == k
-        patterns[specimen_named(name)] = at
-        patterns[f"{specimen_named(name)}, slope over frequency"] = at * log_f
-        patterns[f"{specimen_named(name)}, slope over temperature"] = at * above
+    course = observed.order if observed.cycles is None else observed.cycles
+    if course is not None:
+        patterns["course of the tests"] = course - course.mean()
+    if len(observed.names) > 1:
+        log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()
+        above = observed.temperature - observed.temperature.mean()
+        for k, name in enumerate(observed.names):
+            at = observed.specimen == k
+            patterns[specimen_named(name)] = at
+            patterns[f"{specimen_named(name)}, slope over frequency"] = at * log_f
+            patterns[f"{specimen_named(name)}, slope over temperature"] = at * above
     return _both(patterns)
 
 

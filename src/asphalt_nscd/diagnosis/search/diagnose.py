@@ -312,11 +312,11 @@ def _noise(
     membership = np.eye(len(observed.names), dtype=complex)[observed.specimen]
     noise = scatter.estimate(observed, membership, scales)
     if noise is not None:
-        # What one specimen may do as a whole is no scatter: take its causes and patterns out.
+        # What one specimen may do as a whole, or the course of the tests, is no scatter: take causes and patterns out.
         joint, fitted = start.fit_spectrum(observed, noise)
         candidates = [c for c in chance.catalogue_candidates(observed, catalogue) if isinstance(c.place, str)]
         directions = chance.candidate_directions(joint, fitted, candidates)
-        patterns = [p.direction[:, None] for p in chance.specimen_structures(observed)]
+        patterns = [p.direction[:, None] for p in chance.structures_of_replicates(observed)]
         refined = scatter.estimate(observed, np.hstack([membership, directions, *patterns]), scales)
         # Few replicates against many patterns leave no freedom: the first estimate then stands.
         return refined or noise, True
