@@ -4,7 +4,8 @@ A look-alike takes most of an unknown effect but not its shape. So each name com
 a smooth effect over ln f, common to all tests; one that changes with temperature too; and the cause itself with a
 size of its own on each isotherm, or at each frequency. All are Gaussian processes beside the discrepancy
 (`discrepancy`), their variances estimated by restricted likelihood with the cause in the model. A name is in
-doubt if its size is less than six standard errors beside a rival.
+doubt if its size is less than six standard errors beside a rival, or if a smooth rival makes the tests 20 times as
+likely beside it.
 """
 
 from __future__ import annotations
@@ -139,10 +140,14 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         yield "A shift with temperature of unusual form looks the same"
     alone = table.beside(rest, direction, (), 1.0)
     observed, sigma = table.plain.observed, table.plain.noise.sigma
-    least = abs(alone.z)
-    for root in _smooth(table.plain):
-        beside = table.beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root), 1.0)
-        least = min(least, abs(beside.z))
+    smooth = [
+        table.beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root), 1.0)
+        for root in _smooth(table.plain)
+    ]
+    least = min(abs(one.z) for one in (alone, *smooth))
+    # A look-alike leaves of an unknown effect what it cannot follow.
+    if min(one.misfit for one in smooth) < alone.misfit - TWENTY_TIMES:
+        yield "The tests hold more beside it that changes with frequency, of which it may be a part"
     known = [
         words
         for words, roots in _shaped(table.plain)
