@@ -24,7 +24,7 @@ SIMULATED = (
 def diagnosis():
     observed = SimpleNamespace(
         isotherm=TEMPERATURE, temperature=TEMPERATURE, frequency=np.tile([1.0, 10.0], 3), names=("A",),
-        specimen=np.zeros(6, int), logarithm=np.log(MEASURED),
+        specimen=np.zeros(6, int), cell=np.arange(6), logarithm=np.log(MEASURED),
     )  # fmt: skip
     return SimpleNamespace(observed=observed, noise=SimpleNamespace(sigma=(0.02, 0.01)))
 
@@ -70,3 +70,11 @@ def test_what_one_of_them_lacks_counts_in_neither(diagnosis):
     found = gain.averages(diagnosis, before, np.log(SIMULATED))
     assert found["0"]["mre_E_percent"]["before"] == pytest.approx(100.0 * 0.3, rel=1e-9)
     assert found["0"]["mre_E_percent"]["after"] == pytest.approx(100.0 * 0.3, rel=1e-9)
+
+
+def test_tests_of_two_amplitudes_are_not_averaged(diagnosis):
+    """What softens with the strain lies as far above the law at one amplitude as below it at the other."""
+    diagnosis.observed.frequency = np.full(6, 1.0)
+    off = np.log(np.tile([1.1, 0.9], 3))
+    found = gain.averages(diagnosis, np.log(MEASURED) + off, np.log(MEASURED))
+    assert found["20"]["mre_E_percent"]["before"] == pytest.approx(10.0, rel=1e-9)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 
@@ -11,7 +13,10 @@ KEYS = ["temperature_C", "frequency_Hz"]
 
 
 def mean_relative_error(
-    measured: pd.DataFrame, simulated: pd.DataFrame, least_phase_deg: float = 0.0
+    measured: pd.DataFrame,
+    simulated: pd.DataFrame,
+    least_phase_deg: float = 0.0,
+    by: Sequence[str] = KEYS,
 ) -> pd.DataFrame:
     """Mean relative error of |E*| and phase for each temperature (Table 4).
 
@@ -25,6 +30,8 @@ def mean_relative_error(
     least_phase_deg : float
         A measured phase below it, of an elastic reference beam say, is nothing to divide by: the error is
         relative to least_phase_deg there.
+    by : sequence of str
+        Columns of a point: temperature_C, frequency_Hz, and what else tests differ by on purpose.
 
     Returns
     -------
@@ -37,9 +44,9 @@ def mean_relative_error(
         For no simulation, or none measured at its point.
     """
     columns = ["E_MPa", "phase_deg"]
-    experiment = measured.groupby(KEYS)[columns].mean()
-    simulation = simulated.groupby(KEYS)[columns].mean()
-    for temperature, frequency in simulation.index.difference(experiment.index):
+    experiment = measured.groupby(list(by))[columns].mean()
+    simulation = simulated.groupby(list(by))[columns].mean()
+    for temperature, frequency, *_ in simulation.index.difference(experiment.index):
         raise InputError(f"no measurement at {temperature:g} degC, {frequency:g} Hz to compare with; add it.")
     if simulation.empty:
         raise InputError("the table of simulations is empty; simulate at least one test.")

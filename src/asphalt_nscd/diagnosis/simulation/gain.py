@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from asphalt_nscd.diagnosis.model.joint import Fitted, Joint
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
-from asphalt_nscd.measurements.agreement import mean_relative_error
+from asphalt_nscd.measurements.agreement import KEYS, mean_relative_error
 
 ERRORS = ("mre_E_percent", "mre_phase_percent")  # of Table 4
 CLOSE = 0.01  # change of the objective at which a fit that is only compared with the tests ends
@@ -144,13 +144,15 @@ def errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str,
     dict of dict of float
         In percent, by quantity and isotherm.
     """
-    isotherm, there = diagnosis.observed.isotherm, ~np.isnan(logarithm)
-    simulated = _frame(diagnosis, logarithm).assign(temperature_C=isotherm)[there]
+    there = ~np.isnan(logarithm)
+    point = {"temperature_C": diagnosis.observed.isotherm, "condition": diagnosis.observed.cell}
+    simulated = _frame(diagnosis, logarithm).assign(**point)[there]
     if simulated.empty:
         return {name: {} for name in ERRORS}
     scatter = float(np.degrees(diagnosis.noise.sigma[1]))
-    measured = _frame(diagnosis, diagnosis.observed.logarithm).assign(temperature_C=isotherm)[there]
-    found = mean_relative_error(measured, simulated, scatter)
+    measured = _frame(diagnosis, diagnosis.observed.logarithm).assign(**point)[there]
+    # Over two amplitudes an average would hide what softens with the strain.
+    found = mean_relative_error(measured, simulated, scatter, (*KEYS, "condition"))
     by = [f"{t:g}" for t in found["temperature_C"]]
     return {name: dict(zip(by, found[name].tolist(), strict=True)) for name in ERRORS}
 
