@@ -142,7 +142,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "outside the catalogue: confident wrong name, at 3 times the limit": (
                     "outside the catalogue: confident wrong name"
                 ),
-                "the same of averages over specimens, which hide what one of them does": (
+                "the same of averages over specimens, for causes that reach all of them": (
                     "error of held-out averages falls where named"
                 ),
                 "causes whose removal leaves their effects unexplained (80 %), not misnamed (10 %)": (

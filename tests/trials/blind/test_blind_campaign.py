@@ -4,6 +4,7 @@ from collections import Counter
 from itertools import chain
 
 import numpy as np
+import pandas as pd
 import pytest
 from blind import plan, tables
 from blind.causes import CATALOGUE
@@ -112,12 +113,24 @@ def test_rates_are_those_of_the_seals(opened):
     assert rates[f"outside the catalogue: confident wrong name, {at}"] == 50.0
     assert rates["amplitude within its 95 % interval"] == pytest.approx(100 * 8 / 9, abs=0.05)
     assert rates["held-out error of single tests falls where named"] == 100.0
-    assert rates["the same of averages over specimens, which hide what one of them does"] == 0.0
+    assert rates["the same of averages over specimens, for causes that reach all of them"] == 0.0
     met = tables.summary(opened).set_index("what")["met"]
     assert (
         met["held-out error of single tests falls where named"] == "yes"
         and met["false alarms of empty cases"] == "no"
     )
+
+
+def test_averages_judge_no_cause_of_one_specimen(opened):
+    """The clamp of one specimen in four leaves the average where it was; an error of temperature moves it."""
+    rows = opened[opened["gain_of_averages"].notna()]
+    one = rows.assign(cause="loose_clamp", where="A", gain_of_averages=-0.01)
+    every = rows.assign(cause="temperature_bias", where="20.0", gain_of_averages=0.5)
+    told = tables.summary(pd.concat([one, every])).set_index("what")
+    judged = told.loc["the same of averages over specimens, for causes that reach all of them"]
+    assert (judged["percent"], judged["of"], judged["met"]) == (100.0, len(every), "yes")
+    reported = told.loc["the same for causes of one specimen, which averages hide"]
+    assert (reported["percent"], reported["of"], reported["met"]) == (0.0, len(one), "")
 
 
 def test_removal_and_efficiency_are_counted_apart(opened):
