@@ -145,9 +145,6 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         for root in _smooth(table.plain)
     ]
     least = min(abs(one.z) for one in (alone, *smooth))
-    # A look-alike leaves of an unknown effect what it cannot follow.
-    if min(one.misfit for one in smooth) < alone.misfit - TWENTY_TIMES:
-        yield "The tests hold more beside it that changes with frequency, of which it may be a part"
     known = [
         words
         for words, roots in _shaped(table.plain)
@@ -161,6 +158,9 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
             "Another error that varies smoothly with frequency could look the same, and the evidence for this one is "
             "weak"
         )
+    # A look-alike leaves of an unknown effect what it cannot follow.
+    elif min(one.misfit for one in smooth) < alone.misfit - TWENTY_TIMES:
+        yield "The tests hold more beside it that changes with frequency, of which it may be a part"
     for words, label in (("isotherms", observed.isotherm), ("frequencies", observed.frequency)):
         parts = effect[:, None] * (label[:, None] == np.unique(label))
         parts = parts[:, np.abs(parts).max(axis=0) > 0.0]
