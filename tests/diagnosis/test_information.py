@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from asphalt_nscd.diagnosis.next_tests.information import Asked, Inquiry, Knowledge, Linear, Question
+from asphalt_nscd.diagnosis.next_tests.information import Inquiry, Knowledge, Linear, Question
 from asphalt_nscd.diagnosis.next_tests.information import Tested as Sweep
 
 SIGMA = 0.01
@@ -26,17 +26,17 @@ def level_and_two_causes() -> Linear:
     return Linear(nuisance, np.zeros((1, 1)), np.column_stack([offset, other]))
 
 
-def asked(question: Question, rows: int) -> list[Asked]:
-    return [Asked(question, np.ones(rows, bool))]
+def asked(cause: int, amplitude: float, free: tuple, rows: int) -> Question:
+    return Question(cause, amplitude, free, 1e9, np.ones(rows, bool))
 
 
 def test_causes_that_differ_at_one_frequency_are_told_apart_there():
-    question = Question(0, 1.0, (1,), need=1e9)
-    inquiry = Inquiry(level_and_two_causes(), single(*range(5)), asked(question, 10))
+    question = asked(0, 1.0, (1,), 10)
+    inquiry = Inquiry(level_and_two_causes(), single(*range(5)), [question])
     gains = inquiry.gains([single(row) for row in range(5, 10)])[:, 0]
     assert gains.argmax() == 4 and gains[4] > 1.5 * gains[:4].max()
     # Alone, the offset shows at every frequency alike.
-    gains = Inquiry(level_and_two_causes(), single(*range(5)), asked(Question(0, 1.0, (), 1e9), 10)).gains(
+    gains = Inquiry(level_and_two_causes(), single(*range(5)), [asked(0, 1.0, (), 10)]).gains(
         [single(row) for row in range(5, 10)]
     )[:, 0]
     assert gains == pytest.approx(np.full(5, gains[0]))
@@ -46,7 +46,7 @@ def test_an_offset_limited_by_the_freedom_of_one_isotherm_asks_for_that_isotherm
     """An offset at the colder isotherm only, the phase of which was tested once; the warmer was tested ten times."""
     effects = np.array([0.01j, 0.0, 0.01j, 0.0])[:, None]
     linear = Linear(np.zeros((4, 1), complex), np.ones((1, 1)), effects)
-    inquiry = Inquiry(linear, single(0, 1), asked(Question(0, 1.0, (), 1e9), 4))
+    inquiry = Inquiry(linear, single(0, 1), [asked(0, 1.0, (), 4)])
     cold, warm = inquiry.gains([single(2), single(3)])[:, 0]
     assert cold == pytest.approx(0.5) and warm == 0.0
 
@@ -89,8 +89,8 @@ def test_knowledge_grows_test_by_test_as_from_all_at_once():
 def test_following_the_advice_raises_the_power_as_promised():
     """The cause is drawn 4 000 times and sought by least squares, with the frequency asked for and with another one."""
     linear = level_and_two_causes()
-    question = Question(0, 5.0, (1,), need=1e9)
-    inquiry = Inquiry(linear, single(*range(5)), asked(question, 10))
+    question = asked(0, 5.0, (1,), 10)
+    inquiry = Inquiry(linear, single(*range(5)), [question])
     gains = inquiry.gains([single(row) for row in range(5, 10)])[:, 0]
     best, other = 5 + int(gains.argmax()), 5 + int(gains.argmin())
     found = {row: _power(linear, [0, 1, 2, 3, 4, *[row] * 3], question) for row in (best, other)}
@@ -114,6 +114,6 @@ def _power(linear: Linear, rows: list[int], question: Question) -> float:
 
 
 def test_no_more_evidence_counts_than_is_needed():
-    question = Question(0, 10.0, (), need=4.0, weight=0.5)
+    question = Question(0, 10.0, (), need=4.0, kept=np.ones(1, bool), weight=0.5)
     assert question.nats(np.array([[1.0]])) == 0.5 * 0.5 * 4.0
     assert question.strength(np.array([[1.0]])) == 100.0

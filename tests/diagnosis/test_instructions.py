@@ -47,12 +47,13 @@ def test_limits_of_the_linear_model_are_those_of_the_diagnosis(empty):
     """Two ways to the same standard error: a score test of the whole table, and information of all tests."""
     model = possible(empty, Costs())
     information = Knowledge(model.linear, [model.old]).information
+    everything = np.ones(model.linear.nuisance.shape[0], bool)
     for k, candidate in enumerate(model.candidates):
         limit = empty.ladder.limits.get(candidate.key)
         if limit is None or len(candidate.values) > 1 or candidate.key[0] == "temperature_bias":
             continue
         error = empty.ladder.estimates[candidate.key][1] / candidate.typical[0]
-        strength = Question(k, error, (), 1e9).strength(information)
+        strength = Question(k, error, (), 1e9, everything).strength(information)
         assert np.sqrt(strength) == pytest.approx(1.0, rel=0.08), candidate.key
         # raised by a quarter at a time where a discrepancy would take the effect up
         raised = np.log(limit / candidate.typical[0] / (5.3 * error)) / np.log(1.25)

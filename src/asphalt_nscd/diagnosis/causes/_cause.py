@@ -10,11 +10,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
 from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
-Vector = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Place = str | float | None
 """The specimen (name) or the isotherm [degC] a cause is confined to; None for the whole table."""
 

@@ -23,7 +23,7 @@ from asphalt_nscd.diagnosis.machine.common_faults import Common, Part, Pooled
 from asphalt_nscd.diagnosis.model import chance, fit_beside, likelihood
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
-from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations, Vector
 from asphalt_nscd.diagnosis.search import limits_beside, with_discrepancy
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.search.ladder import spread_of
@@ -48,7 +48,6 @@ def of_machine(cause: Cause) -> bool:
 
 
 MACHINE = frozenset(cause.name for cause in CATALOGUE if of_machine(cause))
-Vector = NDArray[np.float64]
 FARTHEST = 30.0  # standard errors, beyond which a campaign is as far
 ITERATIONS = 30
 SETTLED = 2  # fits with the causes of the machine at their pooled size

@@ -19,7 +19,7 @@ from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.next_tests import sweeps
 from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Linear, Tested, parts
 from asphalt_nscd.diagnosis.next_tests.sweeps import HALF, Costs, Sweep, at_half_strain
-from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 
@@ -49,7 +49,7 @@ class Departure:
     """
 
     kind: str
-    effect: NDArray[np.complex128]
+    effect: Complex
     specimen: str | None = None
     isotherm: float | None = None
     frequency: float | None = None
@@ -84,7 +84,7 @@ class Possible:
     sweeps: tuple[Sweep, ...]
     candidates: tuple[Candidate, ...]
     departures: tuple[Departure, ...]
-    metal_frequencies: NDArray[np.float64]
+    metal_frequencies: Vector
 
 
 def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
@@ -152,7 +152,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
 
 
 def _repeats(
-    diagnosis: Diagnosis, table: Observations, expected: NDArray[np.complex128], linear: Linear
+    diagnosis: Diagnosis, table: Observations, expected: Complex, linear: Linear
 ) -> Iterator[Departure]:
     """By how much each test that cannot be used departs from what the others say of it, at the row that repeats it."""
     whole = diagnosis.whole or diagnosis.observed
@@ -191,9 +191,9 @@ def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mappi
 
 def _departures(
     linear: Linear, moved: NDArray, columns: Columns, doubtful: Sequence[float]
-) -> dict[float, NDArray[np.complex128]]:
+) -> dict[float, Complex]:
     """By isotherm [degC], ln E* (N,) that its own discrepancy takes up."""
-    found: dict[float, NDArray[np.complex128]] = {}
+    found: dict[float, Complex] = {}
     for process, at in columns:
         t = process.isotherm
         if t is not None and t in doubtful:
@@ -207,9 +207,7 @@ def _doubtful(diagnosis: Diagnosis) -> list[float]:
     return [float(t) for t in diagnosis.observed.isotherms if t in large]
 
 
-def _halved(
-    table: Observations, t: float, departure: NDArray[np.complex128], linear: Linear
-) -> NDArray[np.complex128]:
+def _halved(table: Observations, t: float, departure: Complex, linear: Linear) -> Complex:
     here = np.zeros(linear.effects.shape[0], bool)
     here[: table.size] = (table.isotherm == t) & at_half_strain(table)
     return np.where(here, -HALF * departure, 0.0)
@@ -230,13 +228,13 @@ def _candidates(
     return tuple(found.values())
 
 
-def _effect(joint: Joint, at: Fitted, candidate: Candidate, active: tuple) -> NDArray[np.complex128]:
+def _effect(joint: Joint, at: Fitted, candidate: Candidate, active: tuple) -> Complex:
     if candidate.key in active:
         return joint.direction(at.law, at.scales, at.active, active.index(candidate.key), 0)
     return joint.direction(at.law, at.scales, (*at.active, candidate), len(at.active), 0)
 
 
-def _of_law(joint: Joint, at: Fitted) -> tuple[NDArray[np.complex128], NDArray[np.float64]]:
+def _of_law(joint: Joint, at: Fitted) -> tuple[Complex, Vector]:
     """Derivatives (N, q) with respect to law, scales and shapes of causes; the precision of their priors."""
     modulus, slope = joint.apparent(at.law, at.active, at.scales)
     shapes = [
@@ -249,7 +247,7 @@ def _of_law(joint: Joint, at: Fitted) -> tuple[NDArray[np.complex128], NDArray[n
     return np.column_stack([slope / modulus[:, None], *shapes]), _block(precision, np.ones(len(shapes)))
 
 
-def _block(matrix: NDArray, diagonal: NDArray) -> NDArray[np.float64]:
+def _block(matrix: NDArray, diagonal: NDArray) -> Vector:
     out = np.zeros((matrix.shape[0] + diagonal.size,) * 2)
     out[: matrix.shape[0], : matrix.shape[0]] = matrix
     out[range(matrix.shape[0], out.shape[0]), range(matrix.shape[0], out.shape[0])] = diagonal
@@ -258,7 +256,7 @@ def _block(matrix: NDArray, diagonal: NDArray) -> NDArray[np.float64]:
 
 def _discrepancy(
     diagnosis: Diagnosis, joint: Joint, at: Fitted
-) -> tuple[list[Process], list[NDArray[np.complex128]], list[float]]:
+) -> tuple[list[Process], list[Complex], list[float]]:
     """Processes, roots (N, rank) and variances; a new isotherm between those tested, a usual specimen."""
     sizes = diagnosis.ladder.discrepancy
     if not sizes:
@@ -271,7 +269,7 @@ def _discrepancy(
     return [found.described[k] for k in kept], [found.roots[k] for k in kept], [variances[k] for k in kept]
 
 
-def _variance(process: Process, sizes: Mapping[Process, float], tested: NDArray[np.float64]) -> float:
+def _variance(process: Process, sizes: Mapping[Process, float], tested: Vector) -> float:
     if process in sizes:
         return sizes[process] ** 2
     if process.isotherm is not None:
@@ -281,7 +279,7 @@ def _variance(process: Process, sizes: Mapping[Process, float], tested: NDArray[
     return float(np.mean(alike)) if alike else 0.0
 
 
-def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> NDArray[np.complex128]:
+def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> Complex:
     """What head and channel do to a test on metal; causes of the mix and of a specimen do nothing."""
     out = np.zeros((metal.size, len(candidates)), complex)
     for k, candidate in enumerate(candidates):
@@ -295,9 +293,7 @@ def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> NDAr
     return out
 
 
-def _metal_rows(
-    metal: Observations, table: Observations, columns: Columns, nuisance: NDArray[np.complex128]
-) -> NDArray[np.complex128]:
+def _metal_rows(metal: Observations, table: Observations, columns: Columns, nuisance: Complex) -> Complex:
     """Of the nuisance only what the machine adds to all tests reaches the metal."""
     rows = np.zeros((metal.size, nuisance.shape[1]), complex)
     like = [int(np.flatnonzero(table.frequency == f)[0]) for f in metal.frequency]

@@ -185,6 +185,8 @@ class Question:
         Other causes.
     need : float
         Square of the amplitude over its standard error at which the answer is sure enough.
+    kept : ndarray of bool (N,)
+        Rows of the model that count for it, old and new: all, or those without the test that the cause hangs on.
     weight : float
         Chance that the question matters.
     """
@@ -193,6 +195,7 @@ class Question:
     amplitude: float
     free: tuple[int, ...]
     need: float
+    kept: NDArray[np.bool_]
     weight: float = 1.0
 
     def strength(self, information: Matrix) -> Matrix:
@@ -235,22 +238,6 @@ class Question:
         return self.weight * 0.5 * np.minimum(self.strength(information), self.need)
 
 
-@dataclass(frozen=True)
-class Asked:
-    """A question and what is known to it: all tests, or those without the one that the cause hangs on.
-
-    Parameters
-    ----------
-    question : Question
-        Asked.
-    kept : ndarray of bool (N,)
-        Rows of the model that count for it, old and new.
-    """
-
-    question: Question
-    kept: NDArray[np.bool_]
-
-
 class Inquiry:
     """Open questions, each with the tests that count for it; the state of knowledge as tests are chosen.
 
@@ -260,31 +247,14 @@ class Inquiry:
         The model.
     old : Tested
         Tests done.
-    asked : sequence of Asked
-        Questions.
+    questions : sequence of Question
+        Asked.
     """
 
-    def __init__(self, linear: Linear, old: Tested, asked: Sequence[Asked]) -> None:
-        self.asked = list(asked)
-        self._known: dict[bytes, Knowledge] = {}
-        for one in self.asked:
-            if one.kept.tobytes() not in self._known:
-                self._known[one.kept.tobytes()] = Knowledge(linear, [_some(old, one.kept)])
-
-    def known(self, one: Asked) -> Knowledge:
-        """What is known under one answer's set of causes.
-
-        Parameters
-        ----------
-        one : Asked
-            A question.
-
-        Returns
-        -------
-        Knowledge
-            By the tests that count for it.
-        """
-        return self._known[one.kept.tobytes()]
+    def __init__(self, linear: Linear, old: Tested, questions: Sequence[Question]) -> None:
+        self.questions = questions
+        kept = {one.kept.tobytes(): one.kept for one in questions}
+        self._known = {key: Knowledge(linear, [_some(old, rows)]) for key, rows in kept.items()}
 
     def gains(self, tests: Sequence[Tested]) -> Matrix:
         """What sets of tests would add to each question.
@@ -303,16 +273,16 @@ class Inquiry:
             key: known.information + known.gained([_some(one, np.frombuffer(key, bool)) for one in tests])
             for key, known in self._known.items()
         }
-        return np.column_stack(
-            [
-                one.question.nats(after[one.kept.tobytes()]) - one.question.nats(self.known(one).information)
-                for one in self.asked
-            ]
-        )
+        gained = [one.nats(after[one.kept.tobytes()]) - one.nats(self._by_now(one)) for one in self.questions]
+        return np.column_stack(gained)
 
     def strengths(self) -> list[float]:
         """`strength` of each question by now."""
-        return [float(one.question.strength(self.known(one).information)) for one in self.asked]
+        return [float(one.strength(self._by_now(one))) for one in self.questions]
+
+    def _by_now(self, one: Question) -> Matrix:
+        """Information of the tests that count for a question."""
+        return self._known[one.kept.tobytes()].information
 
     def take(self, tests: Tested) -> None:
         """Do the tests.

@@ -8,8 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-Vector = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from asphalt_nscd.diagnosis.observed.observations import Complex, Vector
 
 
 @dataclass(frozen=True)
@@ -78,7 +77,7 @@ class Noise:
             self, within=self.within[:, rows], shared=self.shared[:, rows], block=block, discrepancy=beside
         )
 
-    def whiten(self, values: Complex) -> NDArray[np.float64]:
+    def whiten(self, values: Complex) -> Vector:
         """Values in units of the scatter.
 
         Parameters

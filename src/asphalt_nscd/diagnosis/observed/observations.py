@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 HELD = 3  # tests of an isotherm that may be off by itself
 
 
@@ -59,7 +60,7 @@ class Observations:
     names: tuple[str, ...]
     temperature: Vector
     frequency: Vector
-    modulus: NDArray[np.complex128]
+    modulus: Complex
     form_factor: Vector
     inertia: Vector
     amplitude: Vector | None = None
@@ -84,7 +85,7 @@ class Observations:
         return self.temperature.size
 
     @property
-    def logarithm(self) -> NDArray[np.complex128]:
+    def logarithm(self) -> Complex:
         """ln E* (n,): its imaginary part is the phase [rad]."""
         return np.log(np.abs(self.modulus)) + 1j * np.angle(self.modulus)
 
@@ -152,19 +153,10 @@ class Observations:
         Observations
             Of these.
         """
-        optional: dict[str, Any] = {
-            name: None if (value := getattr(self, name)) is None else value[rows]
-            for name in ("amplitude", "order", "cycles", "time_step", "nominal_temperature", "strain")
+        columns: dict[str, Any] = {
+            one.name: value[rows]
+            for one in fields(self)
+            if isinstance(value := getattr(self, one.name), np.ndarray)
         }
-        return replace(
-            self,
-            specimen=self.specimen[rows],
-            temperature=self.temperature[rows],
-            frequency=self.frequency[rows],
-            modulus=self.modulus[rows],
-            form_factor=self.form_factor[rows],
-            inertia=self.inertia[rows],
-            whole=self.table,
-            quality={name: column[rows] for name, column in self.quality.items()},
-            **optional,
-        )
+        quality = {name: column[rows] for name, column in self.quality.items()}
+        return replace(self, **columns, quality=quality, whole=self.table)

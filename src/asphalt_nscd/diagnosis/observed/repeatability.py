@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.observed.observations import Observations
-
-Vector = NDArray[np.float64]
+from asphalt_nscd.diagnosis.observed.observations import Observations, Vector
+from asphalt_nscd.diagnosis.observed.scatter import unexplained
 
 
 def coefficients(observed: Observations) -> dict[str, Any] | None:
@@ -56,18 +55,13 @@ def _isotherm(at: Observations) -> dict[str, tuple[Vector, int]] | None:
     between = _residual_squares(conditions, values)
     if between[1] < 1:
         return None
-    return {
-        "between": between,
-        "within": _residual_squares(np.hstack([conditions, np.eye(specimen.max() + 1)[specimen]]), values),
-    }
+    levels = np.hstack([conditions, np.eye(specimen.max() + 1)[specimen]])
+    return {"between": between, "within": _residual_squares(levels, values)}
 
 
 def _residual_squares(design: NDArray, values: NDArray) -> tuple[Vector, int]:
-    left, size, _ = np.linalg.svd(design, full_matrices=False)
-    # By rank: conditions and specimens share a constant.
-    left = left[:, size > 1e-9 * size[0]]
-    residual = values - left @ (left.T @ values)
-    return (residual**2).sum(axis=0), values.shape[0] - left.shape[1]
+    residual, freedom = unexplained(design, values)
+    return (residual**2).sum(axis=0), freedom
 
 
 def _pooled(parts: list[tuple[Vector, int]]) -> dict[str, float] | None:

@@ -7,9 +7,8 @@ from numpy.typing import NDArray
 from scipy.special import chdtrc, fdtrc
 
 from asphalt_nscd.diagnosis.observed.noise import Noise
-from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Observations, Vector
 
-Vector = NDArray[np.float64]
 STATED = 10**6  # degrees of freedom of a scatter that is known
 SPECIMEN_SCALE = 0.03  # standard deviation of ln|E*| between specimens of one mix, worth SCALE_FREEDOM
 FLOOR = 5e-4  # of ln|E*| and of the phase [rad]: no two tests repeat better
@@ -42,13 +41,31 @@ def pure_error(observed: Observations, nuisance: NDArray) -> tuple[Vector, Vecto
     zero = np.zeros_like(cells)
     design = np.vstack([np.hstack([cells, zero, nuisance.real]), np.hstack([zero, cells, nuisance.imag])])
     values = np.concatenate([logarithm.real, logarithm.imag])
+    residual, freedom = unexplained(design, values)
+    modulus, phase = np.split(residual, 2)
+    return modulus, phase, freedom
+
+
+def unexplained(design: NDArray, values: NDArray) -> tuple[NDArray, int]:
+    """What the columns of a design leave of values.
+
+    Parameters
+    ----------
+    design : ndarray (n, k)
+        Columns that say the same, as of a specimen tested at one condition, count once in the degrees of freedom.
+    values : ndarray (n, ...)
+        To be explained.
+
+    Returns
+    -------
+    ndarray (n, ...)
+        Residuals.
+    int
+        Their degrees of freedom.
+    """
     left, size, _ = np.linalg.svd(design, full_matrices=False)
-    # columns that say the same, as of a specimen tested at one condition, count once in the degrees of
-    # freedom
     left = left[:, size > 1e-9 * size[0]]
-    residual = values - left @ (left.T @ values)
-    n = observed.size
-    return residual[:n], residual[n:], 2 * n - left.shape[1]
+    return values - left @ (left.T @ values), values.shape[0] - left.shape[1]
 
 
 def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise | None:

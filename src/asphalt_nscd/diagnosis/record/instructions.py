@@ -21,7 +21,7 @@ from asphalt_nscd.diagnosis.criteria import CONFIDENCE, HIDES, SURVIVES, USUAL_T
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, Possible, possible
-from asphalt_nscd.diagnosis.next_tests.information import Asked, Inquiry, Knowledge, Question
+from asphalt_nscd.diagnosis.next_tests.information import Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Costs, Sweep
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.record import rungs
@@ -109,7 +109,7 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
     list of Order
         In the order chosen.
     """
-    inquiry = Inquiry(model.linear, model.old, [one.asked for one in questions])
+    inquiry = Inquiry(model.linear, model.old, [one.question for one in questions])
     orders: list[Order] = []
     waiting = list(model.sweeps)
     doubtful = [k for k, one in enumerate(questions) if one.kind in ("repeat", "level")]
@@ -179,14 +179,15 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         found += _of_named(diagnosis, model, k, active)
         named = model.candidates[k]
         for j, other in others:
-            question = Question(k, _amplitude(named), (*active, j), TOLD_APART)
+            question = Question(k, _amplitude(named), (*active, j), TOLD_APART, everything)
             if question.strength(known) < TOLD_APART:
                 words, as_good = (words_of(named), words_of(other)), other.key in rivals[named.key]
-                found.append(Open("apart", Asked(question, everything), *words, named, other, alike=as_good))
+                found.append(Open("apart", question, *words, named, other, alike=as_good))
     for n, departure in enumerate(model.departures):
-        question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART)
-        words = _of_departure(diagnosis, departure)
-        found.append(Open(departure.kind, Asked(question, everything), *words, departure=departure))
+        question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART, everything)
+        found.append(
+            Open(departure.kind, question, *_of_departure(diagnosis, departure), departure=departure)
+        )
     places = Counter(candidate.cause.name for candidate in model.candidates)
     spread = diagnosis.ladder.estimates_spread  # by which an effect is harder to find
     shapeless = max(diagnosis.ladder.discrepancy.values(), default=0.0) > HIDES
@@ -194,10 +195,10 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         if shapeless and len(other.values) > 1:
             continue  # a cause with a shape of its own gets no name beside a discrepancy
         # That a cause is there at all is shared by the places where it may be.
-        question = Question(j, REACH / spread, active, FOUND, PRESENT / places[other.cause.name])
+        chance = PRESENT / places[other.cause.name]
+        question = Question(j, REACH / spread, active, FOUND, everything, chance)
         hidden = max(float(question.strength(known)) - _by_limit(diagnosis, other), 0.0)
-        asked = Asked(question, everything)
-        found.append(Open("reach", asked, *_sized(other, REACH), candidate=other, hidden=hidden))
+        found.append(Open("reach", question, *_sized(other, REACH), candidate=other, hidden=hidden))
     return found
 
 
@@ -234,15 +235,14 @@ def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, 
     hangs_on = diagnosis.ladder.hangs_on.get(candidate.key, [])
     for label, kept in _parts(model.table, rows):
         if label in hangs_on:
-            question = Question(k, amplitude, active, KEPT)
-            found.append(Open("kept", Asked(question, kept), words, label, candidate))
+            question = Question(k, amplitude, active, KEPT, kept)
+            found.append(Open("kept", question, words, label, candidate))
     metal = np.arange(rows) >= model.table.size
     if np.abs(model.linear.effects[metal, k]).max(initial=0.0) > 0.0:
-        question = Question(k, amplitude, active, FOUND)
+        question = Question(k, amplitude, active, FOUND, metal)
         value, error = rungs.amplitude(diagnosis, candidate)
         share = widening(diagnosis.ladder.estimates_spread) * CONFIDENCE * error / abs(value)
-        shows = _on_metal(model, k, amplitude, share)
-        found.append(Open("metal", Asked(question, metal), words, shows, candidate))
+        found.append(Open("metal", question, words, _on_metal(model, k, amplitude, share), candidate))
     return found
 
 

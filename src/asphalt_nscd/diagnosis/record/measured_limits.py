@@ -189,15 +189,13 @@ def summarised(table: pd.DataFrame) -> dict[str, Any]:
     dict
         Of each cause, how often it was named, and how often it should have been.
     """
+    counts = table.assign(tried=1, other_named=(table["named_instead"] != "").astype(int))
+    counts = counts[["tried", "named", "within_interval", "other_named"]]
     out: dict[str, Any] = {}
-    for (cause, multiple), rows in table.groupby(["cause", table["times_limit"].abs()], sort=True):
-        out.setdefault(str(cause), {})[f"{multiple:g}"] = {
-            "tried": len(rows),
-            "named": int(rows["named"].sum()),
-            "within_interval": int(rows["within_interval"].sum()),
-            "other_named": int((rows["named_instead"] != "").sum()),
-            "stated_power": stated_power(float(multiple)),
-        }
+    for (cause, multiple), row in (
+        counts.groupby([table["cause"], table["times_limit"].abs()]).sum().iterrows()
+    ):
+        out.setdefault(cause, {})[f"{multiple:g}"] = row.to_dict() | {"stated_power": stated_power(multiple)}
     return out
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.optimize import least_squares
 from scipy.special import stdtrit
 
+from asphalt_nscd.diagnosis.observed.observations import Vector
 from asphalt_nscd.diagnosis.observed.scatter import SCALE_FREEDOM, SPECIMEN_SCALE
 from asphalt_nscd.diagnosis.record.reported import EN_12697_26, IN_A_DECADE, NEAR
 from asphalt_nscd.files.errors import InputError
@@ -25,7 +26,6 @@ from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.limits import LIMITS
 from asphalt_nscd.measurements.reduction import require_enough
 
-Vector = NDArray[np.float64]
 LN10 = float(np.log(10.0))
 # Usual values of the parameters and how far they stray: lg of the lower modulus [MPa] and of the span, place and slope
 # over lg reduced frequency, lg c1 and lg c2 [K].

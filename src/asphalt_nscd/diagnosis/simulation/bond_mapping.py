@@ -12,9 +12,8 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Complex, Observations
 from asphalt_nscd.diagnosis.simulation.numerics import NEAR_DEGREES, NEAR_FREQUENCY
 from asphalt_nscd.diagnosis.written import interval_95
 from asphalt_nscd.measurements.tables import KEYS, MODULUS, read_tests
@@ -26,10 +25,9 @@ SENTENCE = (
     "size and packing decide"
 )
 CONFIRMED_BY = "the same law in other packings and sizes: packing.csv, docs/mapping.md"
-Logarithm = NDArray[np.complex128]
 
 
-def simulated(campaign: str | Path, observed: Observations) -> Logarithm:
+def simulated(campaign: str | Path, observed: Observations) -> Complex:
     """ln E* of a campaign of simulated tests at the condition of each measured test, mean over samples.
 
     Parameters

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL, SPECIMEN
 from asphalt_nscd.diagnosis.model.joint import Candidate
-from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
 from asphalt_nscd.diagnosis.observed.reading import read_observations
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
@@ -37,21 +37,12 @@ from asphalt_nscd.rheology.spectrum import LAWS, Spectrum, parameters
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
-Vector = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 TOLERANCE = 1e-3  # of ln E* of a Kelvin chain over the tested band
 FAR = 1.0  # scatter of one test, of the law of the extended simulation from what was found
 MARGIN = 2.0  # of the band, for the transient of a test
-TERMS = {  # a parameter of the law in words, its unit and how many of it are one SI unit
+TERMS = {  # a parameter of the law in words, its unit and how many of it are one SI unit; others go by their name
     "static_modulus": ("the static modulus", " MPa", 1e-6),
     "glassy_modulus": ("the glassy modulus", " GPa", 1e-9),
-    "k": ("k", "", 1.0),
-    "h": ("h", "", 1.0),
-    "delta": ("delta", "", 1.0),
-    "beta": ("beta", "", 1.0),
-    "gamma": ("gamma", "", 1.0),
-    "v": ("v", "", 1.0),
-    "w": ("w", "", 1.0),
     "c1": ("C1", "", 1.0),
     "c2": ("C2", " K", 1.0),
     "activation_energy": ("the activation energy", " kJ/mol", 1e-3),
@@ -145,20 +136,12 @@ def compared(diagnosis: Diagnosis, fit: Fit[Spectrum], used: NDArray[np.bool_]) 
     list of dict
         One for each law.
     """
-    made = {
-        name: fit if isinstance(fit.law, kind) else material_law(diagnosis, used, name)
-        for name, kind in LAWS.items()
-    }
-    return [
-        {
-            "law": name,
-            "title": one.law.title,
-            "parameters": len(parameters(one.law)),
-            **law_misses(diagnosis, one.law, used),
-            "taken": one is fit,
-        }
-        for name, one in made.items()
-    ]
+    found = []
+    for name, kind in LAWS.items():
+        law = fit.law if isinstance(fit.law, kind) else material_law(diagnosis, used, name).law
+        about = {"law": name, "title": law.title, "parameters": len(parameters(law))}
+        found.append({**about, **law_misses(diagnosis, law, used), "taken": law is fit.law})
+    return found
 
 
 def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) -> list[str]:
@@ -230,12 +213,13 @@ def prior_notes(fit: Fit) -> list[str]:
     list of str
         A sentence; none if they determine all.
     """
-    values = parameters(fit.law)
     names, sizes = [], []
     for name in fit.from_prior:
-        term, unit, factor = TERMS[name]
+        term, unit, factor = TERMS.get(name, (name, "", 1.0))
         names.append(term)
-        sizes.append(f"{term.removeprefix('the ')} {float(f'{factor * values[name]:.2g}'):g}{unit}")
+        sizes.append(
+            f"{term.removeprefix('the ')} {float(f'{factor * parameters(fit.law)[name]:.2g}'):g}{unit}"
+        )
     if not names:
         return []
     return [

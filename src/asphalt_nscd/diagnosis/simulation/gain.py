@@ -9,16 +9,16 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.model.joint import Fitted, Joint
+from asphalt_nscd.diagnosis.observed.observations import Complex
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
 from asphalt_nscd.measurements.agreement import KEYS, mean_relative_error
 
 ERRORS = ("mre_E_percent", "mre_phase_percent")  # of Table 4
 CLOSE = 0.01  # change of the objective at which a fit that is only compared with the tests ends
-Logarithm = NDArray[np.complex128]  # ln E* (n,)
 
 
-def simulated_by(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> NDArray[np.complex128]:
+def simulated_by(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> Complex:
     """How the numerical specimen shows a law.
 
     Parameters
@@ -41,7 +41,7 @@ def simulated_by(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> N
     return fitted.modelled + effect
 
 
-def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
+def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Complex:
     """How the numerical specimen shows a Burgers law fitted at each temperature.
 
     Parameters
@@ -75,7 +75,7 @@ def by_tests_alone(diagnosis: Diagnosis) -> Joint:
     return Joint(diagnosis.observed, diagnosis.ladder.joint.base, diagnosis.alone)
 
 
-def nearest(diagnosis: Diagnosis, fitted: Fitted, specimen: NumericalSpecimen) -> Logarithm:
+def nearest(diagnosis: Diagnosis, fitted: Fitted, specimen: NumericalSpecimen) -> Complex:
     """How the numerical specimen shows the law and the causes of a fit, as near to the tests as they come.
 
     Beside what the laboratory adds and a discrepancy, a law that lacks a cause is far from the tests.
@@ -98,7 +98,7 @@ def nearest(diagnosis: Diagnosis, fitted: Fitted, specimen: NumericalSpecimen) -
     return simulated_by(joint, joint.fit(fitted.law, fitted.scales, fitted.active, CLOSE), specimen)
 
 
-def with_common_law(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logarithm:
+def with_common_law(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Complex:
     """How the numerical specimen shows one law for all temperatures, without causes.
 
     Parameters
@@ -116,7 +116,7 @@ def with_common_law(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Logari
     return nearest(diagnosis, diagnosis.ladder.start, specimen)
 
 
-def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFrame:
+def _frame(diagnosis: Diagnosis, logarithm: Complex) -> pd.DataFrame:
     observed = diagnosis.observed
     return pd.DataFrame(
         {
@@ -129,7 +129,7 @@ def _frame(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> pd.DataFr
     )
 
 
-def errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str, dict[str, float]]:
+def errors(diagnosis: Diagnosis, logarithm: Complex) -> dict[str, dict[str, float]]:
     """Mean relative errors by isotherm, as in Table 4, of the tests that were simulated.
 
     Parameters
@@ -157,7 +157,7 @@ def errors(diagnosis: Diagnosis, logarithm: NDArray[np.complex128]) -> dict[str,
     return {name: dict(zip(by, found[name].tolist(), strict=True)) for name in ERRORS}
 
 
-def _misses(diagnosis: Diagnosis, logarithm: Logarithm, rows: NDArray[np.bool_]) -> dict[str, float]:
+def _misses(diagnosis: Diagnosis, logarithm: Complex, rows: NDArray[np.bool_]) -> dict[str, float]:
     """Mean relative errors of single tests, and the error over the scatter (root mean square), of some rows.
 
     Not of averages over specimens, as in Table 4: these hide what is wrong with one specimen.
@@ -176,7 +176,7 @@ def _misses(diagnosis: Diagnosis, logarithm: Logarithm, rows: NDArray[np.bool_])
 
 
 def before_and_after(
-    diagnosis: Diagnosis, before: Logarithm, after: Logarithm, inner: bool = False
+    diagnosis: Diagnosis, before: Complex, after: Complex, inner: bool = False
 ) -> dict[str, Any]:
     """Errors before and after: of single tests, and of averages over specimens at each temperature.
 
@@ -205,9 +205,7 @@ def before_and_after(
     return pair
 
 
-def averages(
-    diagnosis: Diagnosis, before: Logarithm, after: Logarithm
-) -> dict[str, dict[str, dict[str, float]]]:
+def averages(diagnosis: Diagnosis, before: Complex, after: Complex) -> dict[str, dict[str, dict[str, float]]]:
     """Errors before and after by temperature, as in Table 4, of the conditions that hold both.
 
     Parameters
@@ -231,7 +229,7 @@ def averages(
 
 
 def residual_table(
-    diagnosis: Diagnosis, specimen: NumericalSpecimen, before: Logarithm | None = None
+    diagnosis: Diagnosis, specimen: NumericalSpecimen, before: Complex | None = None
 ) -> pd.DataFrame:
     """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated).
 

@@ -6,12 +6,11 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from asphalt_nscd.diagnosis.observed.observations import Vector
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.tables import read_tests
 
-Vector = NDArray[np.float64]
 # A study simulates the nominal conditions of what was measured.
 NEAR_DEGREES = 1.0
 NEAR_FREQUENCY = 0.1  # relative

@@ -14,7 +14,7 @@ from asphalt_nscd.diagnosis.criteria import USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests.fixed_orders import band, named
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
-from asphalt_nscd.diagnosis.next_tests.information import Asked
+from asphalt_nscd.diagnosis.next_tests.information import Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Sweep
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.words.sentences import an, capital
@@ -34,8 +34,8 @@ class Open:
     ----------
     kind : str
         kept, metal, apart, repeat, level, linear or reach.
-    asked : Asked
-        The question, and the tests that count for it.
+    question : Question
+        What is asked of the tests.
     about : str
         What it is about, in words.
     other : str
@@ -52,7 +52,7 @@ class Open:
     """
 
     kind: str
-    asked: Asked
+    question: Question
     about: str
     other: str = ""
     candidate: Candidate | None = None
