@@ -285,7 +285,7 @@ def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
     order = order_words.Order(Sweep(specimens[0], t, f, half, None, 1.0), specimens, 2.5, 1.0, {})
     who = {1: f"specimen {specimens[0]}", 2: "specimens a and b"}[len(specimens)]
     who = METAL if specimens == [METAL] else who
-    assert order_words.in_a_sentence(order, table(3)).startswith(f"2.5 h: test {who}{again}")
+    assert order_words.act(order, table(3)).startswith(f"test {who}{again}")
 
 
 def test_what_a_test_would_show_is_said_with_its_chance():

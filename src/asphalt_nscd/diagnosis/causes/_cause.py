@@ -82,7 +82,22 @@ class Cause(ABC):
             Specimens, isotherms [degC], or None: all tests; empty if the table cannot show it or the bench
             cannot have it.
         """
-        return (None,) if self.on_bench(observed) else ()
+        return (None,) if self.on_bench(observed) and self.shows(observed) else ()
+
+    def shows(self, observed: Observations) -> bool:
+        """Whether the table can show the cause at all.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        bool
+            True, unless a cause says what it takes.
+        """
+        return True
 
     def on_bench(self, observed: Observations) -> bool:
         """Whether the apparatus of these tests can have the cause at all.

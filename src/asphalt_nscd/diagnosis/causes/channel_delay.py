@@ -1,8 +1,6 @@
-from collections.abc import Sequence
-
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Complex, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -21,7 +19,7 @@ class ChannelDelay(Cause):
     shows_in = "a test on a metal reference specimen: in these, the master curve can bend to hide it"
     confirmed_by = "a test on an elastic reference specimen of metal, which has no phase of its own"
 
-    def places(self, observed: Observations) -> Sequence[Place]:
+    def shows(self, observed: Observations) -> bool:
         """All tests, where at least two frequencies were tested: at one, a delay is an angle like any other.
 
         Parameters
@@ -31,10 +29,10 @@ class ChannelDelay(Cause):
 
         Returns
         -------
-        sequence
-            None for all tests, or empty.
+        bool
+            True if so.
         """
-        return (None,) if observed.frequencies.size > 1 else ()
+        return observed.frequencies.size > 1
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """The recorded F/z turned by omega tau; the inertia that the reduction adds by Eq. (1) is not turned.

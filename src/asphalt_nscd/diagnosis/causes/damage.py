@@ -1,8 +1,6 @@
-from collections.abc import Sequence
-
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -16,7 +14,7 @@ class Damage(Cause):
     confirmed_by = "repeating the first test at the end"
     needs = "the order of the tests (column order or cycles)"
 
-    def places(self, observed: Observations) -> Sequence[Place]:
+    def shows(self, observed: Observations) -> bool:
         """All tests, where the table tells their order or their cycles, and not all are the same.
 
         Parameters
@@ -26,11 +24,11 @@ class Damage(Cause):
 
         Returns
         -------
-        sequence
-            None for all tests, or empty.
+        bool
+            True if so.
         """
         known = observed.cycles is not None or observed.order is not None
-        return (None,) if known and np.ptp(self._progress(observed)) > 0.0 else ()
+        return known and bool(np.ptp(self._progress(observed)) > 0.0)
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """Modulus that falls in proportion to the cycles borne, or to the number of the test.

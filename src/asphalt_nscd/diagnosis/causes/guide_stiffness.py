@@ -1,6 +1,4 @@
-from collections.abc import Sequence
-
-from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -18,7 +16,7 @@ class GuideStiffness(Cause):
     confirmed_by = "a test of the rig without a specimen, or the modulus of the mix at long times"
     needs = "two-point bending and the static modulus of the mix (--static-modulus-mpa), since both add alike to |E*|"
 
-    def places(self, observed: Observations) -> Sequence[Place]:
+    def shows(self, observed: Observations) -> bool:
         """All tests of a bench with a guide, where the static modulus of the mix is known: the two add alike to E1.
 
         Parameters
@@ -28,11 +26,11 @@ class GuideStiffness(Cause):
 
         Returns
         -------
-        sequence
-            None for all tests, or empty.
+        bool
+            True if so.
         """
         # It adds to E1 as a larger static modulus does at every temperature and frequency: that must be known.
-        return () if observed.static_modulus is None or not self.on_bench(observed) else (None,)
+        return observed.static_modulus is not None
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """A constant added to E1.

@@ -1,6 +1,4 @@
-from collections.abc import Sequence
-
-from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -24,7 +22,7 @@ class MovingMass(Cause):
     )
     confirmed_by = "weighing what moves with the head, or a test of the rig without a specimen"
 
-    def places(self, observed: Observations) -> Sequence[Place]:
+    def shows(self, observed: Observations) -> bool:
         """All tests of a two-point bench at two frequencies or more: at one, a mass is a constant of E1.
 
         Parameters
@@ -34,10 +32,10 @@ class MovingMass(Cause):
 
         Returns
         -------
-        sequence
-            None for all tests, or empty.
+        bool
+            True if so.
         """
-        return (None,) if observed.frequencies.size > 1 and self.on_bench(observed) else ()
+        return observed.frequencies.size > 1
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """The inertia that Eq. (1) leaves out takes from E1.

@@ -3,7 +3,7 @@ from itertools import product
 
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.rheology.shift import GAS_CONSTANT, ZERO_CELSIUS
 
@@ -23,7 +23,7 @@ class SecondaryProcess(Cause):
     confirmed_by = "tests at more frequencies, or the loss peak of the binder"
     shows_in = "tests that a law fits; in these, what the law misses would pass for a second loss peak"
 
-    def places(self, observed: Observations) -> Sequence[Place]:
+    def shows(self, observed: Observations) -> bool:
         """All tests, where there are three isotherms and three frequencies or more.
 
         Parameters
@@ -33,10 +33,10 @@ class SecondaryProcess(Cause):
 
         Returns
         -------
-        sequence
-            None for all tests, or empty.
+        bool
+            True if so.
         """
-        return (None,) if observed.isotherms.size > 2 and observed.frequencies.size > 2 else ()
+        return observed.isotherms.size > 2 and observed.frequencies.size > 2
 
     def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
         """Starts of its search: a peak anywhere in the tested band, which shifts less than the mix.

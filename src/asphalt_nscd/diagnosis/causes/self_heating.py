@@ -1,8 +1,6 @@
-from collections.abc import Sequence
-
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -15,7 +13,7 @@ class SelfHeating(Cause):
     sentence = "the specimens warm themselves while they are tested"
     confirmed_by = "a thermometer in the specimen, or the drift of the modulus during a longer test"
 
-    def places(self, observed: Observations) -> Sequence[Place]:
+    def shows(self, observed: Observations) -> bool:
         """All tests, where frequencies and isotherms are several and the mix dissipates at all.
 
         Parameters
@@ -25,12 +23,12 @@ class SelfHeating(Cause):
 
         Returns
         -------
-        sequence
-            None for all tests, or empty.
+        bool
+            True if so.
         """
         several = observed.frequencies.size > 1 and observed.isotherms.size > 1
         # A table of metal dissipates nothing.
-        return (None,) if several and self._power(observed.table).max() > 0.0 else ()
+        return several and bool(self._power(observed.table).max() > 0.0)
 
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
         """Rise in proportion to omega E2 z0^2, by the measured loss; without amplitudes to omega E2.

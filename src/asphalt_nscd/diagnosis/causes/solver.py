@@ -1,8 +1,6 @@
-from collections.abc import Sequence
-
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -20,7 +18,7 @@ class Solver(Cause):
     confirmed_by = "the same tests at half the time step"
     needs = "simulated tests (column time_step_s); in measurements there is no time step"
 
-    def places(self, observed: Observations) -> Sequence[Place]:
+    def shows(self, observed: Observations) -> bool:
         """All tests, where the table tells the time step of a simulation.
 
         Parameters
@@ -30,10 +28,10 @@ class Solver(Cause):
 
         Returns
         -------
-        sequence
-            None for all tests, or empty.
+        bool
+            True if so.
         """
-        return () if observed.time_step is None else (None,)
+        return observed.time_step is not None
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """What implicit Euler makes of the modulus of a smooth law, whose slope is its phase over pi/2.

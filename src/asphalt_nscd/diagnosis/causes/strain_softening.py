@@ -1,8 +1,6 @@
-from collections.abc import Sequence
-
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -16,7 +14,7 @@ class StrainSoftening(Cause):
     confirmed_by = "an amplitude sweep down to 20 microstrain"
     needs = "more than one amplitude (column amplitude_m)"
 
-    def places(self, observed: Observations) -> Sequence[Place]:
+    def shows(self, observed: Observations) -> bool:
         """All tests, where their amplitudes span more than a fifth of the largest.
 
         Parameters
@@ -26,12 +24,12 @@ class StrainSoftening(Cause):
 
         Returns
         -------
-        sequence
-            None for all tests, or empty.
+        bool
+            True if so.
         """
         amplitude = observed.amplitude
         # Amplitudes that wobble about one setting are no sweep of the strain.
-        return (None,) if amplitude is not None and np.ptp(amplitude) > 0.2 * amplitude.max() else ()
+        return amplitude is not None and bool(np.ptp(amplitude) > 0.2 * amplitude.max())
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """Modulus that falls in proportion to the amplitude A.

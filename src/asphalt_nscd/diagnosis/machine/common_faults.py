@@ -45,14 +45,14 @@ class Common:
     """
 
     cause: Cause
-    value: float
-    std_error: float
-    between: float
     p_value: float
-    campaigns: tuple[Part, ...]
-    isotherms: tuple[Part, ...]
-    frequencies: tuple[Part, ...]
-    as_good: tuple[str, ...] = ()
+    as_good: tuple[str, ...]
+    value: float = 0.0
+    std_error: float = 0.0
+    between: float = 0.0
+    campaigns: tuple[Part, ...] = ()
+    isotherms: tuple[Part, ...] = ()
+    frequencies: tuple[Part, ...] = ()
     differs: Mapping[str, float] = field(default_factory=dict)
 
     @property

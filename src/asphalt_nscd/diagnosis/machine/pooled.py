@@ -153,7 +153,7 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -
             states = [one.with_causes(causes, amplitudes) for one in states]
             amplitudes = _all_together([_evidence(one, causes) for one in states], amplitudes)
         as_good = tuple(cause.name for cause in near if cause is not best)
-        found.append(Common(best, 0.0, 0.0, 0.0, p_value, (), (), (), as_good))
+        found.append(Common(best, p_value, as_good))
     last = [_evidence(one, causes) for one in states]
     found = [_told(one, k, states, last, causes, amplitudes) for k, one in enumerate(found)]
     # What was found beside a cause that has no one size hangs on it: it is not told.
@@ -346,17 +346,15 @@ def _told(
     isotherms, by_isotherm = _apart(states, ordered, lambda of: of.isotherm, "degC")
     frequencies, by_frequency = _apart(states, ordered, lambda of: of.frequency, "Hz")
     tested = {"campaigns": whole.differ, "isotherms": by_isotherm, "frequencies": by_frequency}
-    return Common(
-        one.cause,
-        whole.value * unit,
-        whole.std_error * unit,
-        whole.between * unit,
-        one.p_value,
-        campaigns,
-        isotherms,
-        frequencies,
-        one.as_good,
-        {name: p_value for name, p_value in tested.items() if p_value < criteria.DIFFERENT},
+    return replace(
+        one,
+        value=whole.value * unit,
+        std_error=whole.std_error * unit,
+        between=whole.between * unit,
+        campaigns=campaigns,
+        isotherms=isotherms,
+        frequencies=frequencies,
+        differs={name: p_value for name, p_value in tested.items() if p_value < criteria.DIFFERENT},
     )
 
 

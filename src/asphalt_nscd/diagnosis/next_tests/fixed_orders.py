@@ -49,7 +49,7 @@ def gauges(done: Observations, costs: Costs) -> Orders:
         )
         act = f"check {limit.check}, mount {named(names)} anew and test again"
         purpose = f"to see whether {limit.label} gets better"
-        orders.append(_order(act, names, [at], done, costs, (purpose, why)))
+        orders.append(_order(act, names, [at], done, costs, (purpose, [why])))
     return orders
 
 
@@ -78,7 +78,7 @@ def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
         "cause is in the mix or in the mounting."
     )
     purpose = "to see whether the machine adds to the phase"
-    return [_content(f"test {METAL}, {band(ends)}", (purpose, why), hours, [METAL], [], ends)]
+    return [content(f"test {METAL}, {band(ends)}", (purpose, [why]), hours, ([METAL], [], ends))]
 
 
 def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, Any]]) -> Orders:
@@ -110,7 +110,7 @@ def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, An
             f"AASHTO T 378 allows {OFF_TARGET:g} K. Look into the record first. If the temperature there is a slip, "
             "correct it and run this again. If not, use the new tests."
         )
-        orders.append(_order(f"test {named(names)} again", names, [t], done, costs, (purpose, why)))
+        orders.append(_order(f"test {named(names)} again", names, [t], done, costs, (purpose, [why])))
     return orders
 
 
@@ -132,7 +132,7 @@ def second_specimen(done: Observations, costs: Costs) -> Orders:
     if len(done.names) > 1:
         return []
     why = "Two specimens show the scatter from test to test. Without it nothing here is certain."
-    at, words = done.isotherms.tolist(), ("to measure the scatter", why)
+    at, words = done.isotherms.tolist(), ("to measure the scatter", [why])
     return [_order(f"test {NEW}", [NEW], at, done, costs, words)]
 
 
@@ -161,27 +161,46 @@ def more_temperatures(done: Observations, costs: Costs) -> Orders:
     were = f"{counted(tested.size, 'temperature')} {'was' if tested.size == 1 else 'were'} tested"
     why = f"{were}. A fault can be proved from {LEAST_ISOTHERMS} on."
     purpose = f"because fewer than {LEAST_ISOTHERMS} temperatures cannot prove a fault"
-    return [_order(f"test {named(names)}", names, sorted(new), done, costs, (purpose, why))]
+    return [_order(f"test {named(names)}", names, sorted(new), done, costs, (purpose, [why]))]
 
 
 def _order(
-    act: str, names: list[str], at: list[float], done: Observations, costs: Costs, why: tuple[str, str]
+    act: str, names: list[str], at: list[float], done: Observations, costs: Costs, why: tuple[str, list[str]]
 ) -> dict[str, Any]:
-    """An order at these temperatures and all frequencies; why: its purpose in a few words, and the reason in full."""
+    """An order at these temperatures and all frequencies; why: its purpose in a few words, and the reasons in full."""
     frequencies = done.frequencies.tolist()
     hours = sum(costs.hours("", t, frequencies) for name in names for t in at)
     hours += costs.new_specimen * (NEW in names)
     words = f"{act} at {joined([f'{t:g}' for t in at])} degC, {band(frequencies)}"
-    return _content(words, why, hours, names, at, frequencies)
+    return content(words, why, hours, (names, at, frequencies))
 
 
-def _content(
-    act: str, why: tuple[str, str], hours: float, names: list[str], at: list[float], frequencies: list[float]
+def content(
+    act: str, why: tuple[str, list[str]], hours: float, tests: tuple[list[str], list[float], list[float]]
 ) -> dict[str, Any]:
+    """An order as diagnosis.json has it.
+
+    Parameters
+    ----------
+    act : str
+        What to do.
+    why : tuple of str and list of str
+        Its purpose in a few words, and the reasons in full.
+    hours : float
+        That it takes.
+    tests : tuple of list
+        Names of the specimens, temperatures [degC] and frequencies [Hz].
+
+    Returns
+    -------
+    dict
+        Of no computed gain, at the usual strain.
+    """
+    names, at, frequencies = tests
     return {
         "text": f"{hours:.1f} h: {act}.",
         "purpose": why[0],
-        "why": [why[1]],
+        "why": why[1],
         "hours": round(hours, 2),
         "nats": 0.0,
         "specimens": names,

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
+import pandas as pd
 
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.files.errors import InputError
@@ -97,15 +98,11 @@ def refuse_copies(observed: Observations) -> None:
     InputError
         Which names both.
     """
-    tests = {
-        name: {
-            int(observed.cell[row]): observed.modulus[row] for row in np.flatnonzero(observed.specimen == k)
-        }
-        for k, name in enumerate(observed.names)
-    }
+    tests = pd.Series(observed.modulus, [observed.cell, np.array(observed.names)[observed.specimen]])
+    table = tests[~tests.index.duplicated(keep="last")].unstack().reindex(columns=observed.names)
     for one, other in combinations(observed.names, 2):
-        common = tests[one].keys() & tests[other].keys()
-        if len(common) > 2 and all(np.isclose(tests[one][c], tests[other][c], 1e-9, 0.0) for c in common):
+        common = table[[one, other]].dropna()
+        if len(common) > 2 and np.allclose(common[one], common[other], SAME, 0.0):
             raise InputError(
                 f"specimens {one} and {other} have the same modulus at all {len(common)} conditions they share: "
                 "copies are not replicates and give no scatter; keep one of them."

@@ -27,15 +27,12 @@ class Limit:
         Of the column, for a reader.
     check : str
         What to check where most tests exceed it.
-    source : str
-        The standard.
     """
 
     limit: float
     unit: str
     label: str
     check: str
-    source: str = STANDARD
 
 
 @dataclass(frozen=True)

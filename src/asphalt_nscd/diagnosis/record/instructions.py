@@ -27,7 +27,7 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.record import rungs
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
-from asphalt_nscd.diagnosis.words.order_words import Context, Open, Order, in_a_sentence, purpose, reasons
+from asphalt_nscd.diagnosis.words.order_words import Context, Open, Order, act, purpose, reasons
 from asphalt_nscd.diagnosis.words.sentences import an, typed
 from asphalt_nscd.diagnosis.words.unexplained import size_left
 from asphalt_nscd.diagnosis.written import shown, three_digits, widening, with_interval
@@ -76,21 +76,13 @@ def instructions(
     first = [*(ahead or []), *checks]
     first += [] if diagnosis.replicated else fixed_orders.second_specimen(done, costs)
     last = fixed_orders.more_temperatures(done, costs) if diagnosis.replicated else []
-    orders = [
-        {
-            "text": in_a_sentence(one, done),
-            "purpose": purpose(one, questions),
-            "why": reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality)),
-            "hours": round(one.hours, 2),
-            "nats": round(one.nats, 2),
-            "specimens": one.specimens,
-            "temperature_C": None if one.sweep.specimen == METAL else one.sweep.temperature,
-            "frequencies_Hz": list(one.sweep.frequencies),
-            "half_strain": one.sweep.half_strain,
-        }
-        for k, one in enumerate(choose(model, questions))
-    ]
-    told = [one for one in orders if one["why"]]
+    told = []
+    for k, one in enumerate(choose(model, questions)):
+        why = reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality))
+        at = [] if one.sweep.specimen == METAL else [one.sweep.temperature]
+        tests, words = (one.specimens, at, list(one.sweep.frequencies)), (purpose(one, questions), why)
+        order = fixed_orders.content(act(one, done), words, one.hours, tests)
+        told += [order | {"nats": round(one.nats, 2), "half_strain": one.sweep.half_strain}] * bool(why)
     return {"costs": costs.sentence, "orders": [*[*first, *told][: MOST - len(last)], *last]}
 
 

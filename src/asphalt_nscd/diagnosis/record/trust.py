@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
@@ -136,17 +135,9 @@ def _gaps(observed: Observations) -> list[str]:
     return [*missing[:LISTED], *more]
 
 
-def _shared(observed: Observations) -> set[str]:
-    """Quality columns that exceed their limit in half of the tests of an isotherm and specimen or more."""
-    block = within_isotherm.blocks(observed)
-    alike = Counter((one.column, block[one.row]) for one in quality.exceeded(observed))
-    size = Counter(block.tolist())
-    return {column for (column, number), count in alike.items() if 2 * count >= size[number]}
-
-
 def _quality_notes(above: Sequence[Mapping[str, Any]], observed: Observations) -> list[str]:
     """A sentence for each quality limit that some tests exceed, with the worst of them; what follows if it is usual."""
-    notes, shared = [], _shared(observed)
+    notes = []
     for name, limit in quality.LIMITS.items():
         found = sorted((one for one in above if one["column"] == name), key=lambda one: -one["value"])
         if found:
@@ -155,12 +146,14 @@ def _quality_notes(above: Sequence[Mapping[str, Any]], observed: Observations) -
                 f"{one['value']:g} {limit.unit}"
                 for one in found[:3]
             )
+            where = quality.where(observed, name)
             usual = (
-                f" Half of the tests or more exceed it in {quality.where(observed, name)}: check gauges and mounting. "
-                "No single test is rejected for that."
+                f" Half of the tests or more exceed it in {where}: check gauges and mounting. No single test is "
+                "rejected for that."
             )
             notes.append(
-                f"{limit.label.capitalize()} above {limit.limit:g} {limit.unit} ({limit.source}) in {len(found)} of "
-                f"{observed.size} tests: {worst}{'; and others' * (len(found) > 3)}.{usual * (name in shared)}"
+                f"{limit.label.capitalize()} above {limit.limit:g} {limit.unit} ({quality.STANDARD}) in "
+                f"{len(found)} of {observed.size} tests: {worst}{'; and others' * (len(found) > 3)}."
+                f"{usual * bool(where)}"
             )
     return notes

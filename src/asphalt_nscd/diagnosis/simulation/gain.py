@@ -37,8 +37,7 @@ def simulated_by(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> C
     """
     observed = joint.observed
     law = joint.apparent(fitted.law, ())[0]
-    effect = np.log(specimen.apparent_modulus(observed.omega, law) / law)
-    return fitted.modelled + effect
+    return fitted.modelled + np.log(specimen.apparent_modulus(observed.omega, law) / law)
 
 
 def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Complex:
@@ -200,9 +199,8 @@ def before_and_after(
     if inner:
         rows = (temperature > temperature.min()) & (temperature < temperature.max())
     first, second = _misses(diagnosis, before, rows), _misses(diagnosis, after, rows)
-    pair: dict[str, Any] = {name: {"before": first[name], "after": second[name]} for name in first}
-    pair["averages_by_temperature"] = averages(diagnosis, before, after)
-    return pair
+    pairs = {name: {"before": first[name], "after": second[name]} for name in first}
+    return pairs | {"averages_by_temperature": averages(diagnosis, before, after)}
 
 
 def averages(diagnosis: Diagnosis, before: Complex, after: Complex) -> dict[str, dict[str, dict[str, float]]]:
@@ -252,10 +250,7 @@ def residual_table(
     frame = _frame(diagnosis, observed.logarithm)
     if before is None:
         before = with_burgers_laws(diagnosis, specimen)
-    for name, simulated in (
-        ("before", before),
-        ("after", nearest(diagnosis, ladder.fitted, specimen)),
-    ):
+    for name, simulated in (("before", before), ("after", nearest(diagnosis, ladder.fitted, specimen))):
         left = observed.logarithm - simulated
         frame[f"E_{name}_MPa"] = np.exp(simulated.real) * 1e-6
         frame[f"phase_{name}_deg"] = np.degrees(simulated.imag)

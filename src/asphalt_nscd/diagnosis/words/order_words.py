@@ -280,8 +280,8 @@ def _reason(one: Open, before: float, after: float) -> str:
     return f"{capital(an(one.other))} {looks} This test should {clearer}."
 
 
-def in_a_sentence(one: Order, done: Observations) -> str:
-    """An order in one sentence, its time first.
+def act(one: Order, done: Observations) -> str:
+    """What an order asks for.
 
     Parameters
     ----------
@@ -293,13 +293,13 @@ def in_a_sentence(one: Order, done: Observations) -> str:
     Returns
     -------
     str
-        The sentence.
+        A clause.
     """
     where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
     half = ", at half the strain" if one.sweep.half_strain else ""
     again = " again" if _all_tested(one, done) else ""
     what = f"{named(one.specimens)}{again}{where}, {band(one.sweep.frequencies)}{half}"
-    return f"{one.hours:.1f} h: test {what}."
+    return f"test {what}"
 
 
 def _all_tested(one: Order, done: Observations) -> bool:
