@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-import pandas as pd
 
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.files.errors import InputError
@@ -98,11 +97,13 @@ def refuse_copies(observed: Observations) -> None:
     InputError
         Which names both.
     """
-    tests = pd.Series(observed.modulus, [observed.cell, np.array(observed.names)[observed.specimen]])
-    table = tests[~tests.index.duplicated(keep="last")].unstack().reindex(columns=observed.names)
+    tests: dict[str, dict[int, complex]] = {name: {} for name in observed.names}
+    for k, cell, modulus in zip(observed.specimen, observed.cell, observed.modulus, strict=True):
+        tests[observed.names[k]][cell] = modulus
     for one, other in combinations(observed.names, 2):
-        common = table[[one, other]].dropna()
-        if len(common) > 2 and np.allclose(common[one], common[other], SAME, 0.0):
+        common = tests[one].keys() & tests[other].keys()
+        first, second = ([tests[name][cell] for cell in common] for name in (one, other))
+        if len(common) > 2 and np.allclose(first, second, SAME, 0.0):
             raise InputError(
                 f"specimens {one} and {other} have the same modulus at all {len(common)} conditions they share: "
                 "copies are not replicates and give no scatter; keep one of them."

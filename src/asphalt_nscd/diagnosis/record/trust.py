@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.screening import levels, within_isotherm
+from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET, isotherm_notes
