@@ -385,7 +385,8 @@ def _begin_with_campaigns(
             content["notes"].append(sentence)
     for law in content["ladder"]:
         if law["cause"] == "relaxation_spectrum":
-            errors = gain.averages(diagnosis, after, gain.with_common_law(diagnosis, specimen))
+            common = gain.nearest(diagnosis, diagnosis.ladder.start, specimen)
+            errors = gain.averages(diagnosis, after, common)
             law["gain"]["in_sample"]["averages_by_temperature"] = errors
     content["ladder"][:0] = [] if rung is None else [rung]
     return before

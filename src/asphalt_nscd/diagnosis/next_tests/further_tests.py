@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD
@@ -118,13 +119,13 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     effects = np.column_stack([_effect(joint, at, candidate, keys) for candidate in candidates])
     if diagnosis.laboratory is not None:  # every sweep is a mounting of its own
         added = diagnosis.laboratory.factor(joint, at, noise.block)
-        nuisance, precision = np.hstack([nuisance, added]), _block(precision, np.ones(added.shape[1]))
+        nuisance, precision = np.hstack([nuisance, added]), block_diag(precision, np.eye(added.shape[1]))
     processes, roots, variances = _discrepancy(diagnosis, joint, at)
     ranks = [root.shape[1] for root in roots]
     ends = np.cumsum([nuisance.shape[1], *ranks])
     columns = [(one, slice(a, b)) for one, (a, b) in zip(processes, pairwise(ends), strict=True)]
     nuisance = np.hstack([nuisance, *roots])
-    precision = _block(precision, 1.0 / np.repeat(variances, ranks))
+    precision = block_diag(precision, np.diag(1.0 / np.repeat(variances, ranks)))
     metal = sweeps.on_metal(observed)
     rows = _metal_rows(metal, table, columns, nuisance)
     effects = np.vstack([effects, _metal_effects(metal, candidates)])
@@ -132,7 +133,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     level = np.zeros((rows.shape[0] + table.size, 1), complex)
     level[table.size :] = 1.0
     nuisance = np.hstack([np.vstack([nuisance, rows]), level])
-    linear = Linear(nuisance, _block(precision, np.array([METAL_LEVEL**-2])), effects)
+    linear = Linear(nuisance, block_diag(precision, METAL_LEVEL**-2), effects)
     n = observed.size
     old = Tested(np.arange(n), sweeps.scatter_of(noise.within[:, :n], noise.shared[:, :n], noise.block[:n]))
     further = [*sweeps.sweeps_at(observed, table, noise, costs)]
@@ -243,15 +244,9 @@ def _of_law(joint: Joint, at: Fitted) -> tuple[Complex, Vector]:
         for j in range(1, len(candidate.values))
     ]
     rows = joint.base.prior(at.law)[1]
-    precision = _block(rows.T @ rows, np.full(at.scales.size, joint.noise.scale**-2))
-    return np.column_stack([slope / modulus[:, None], *shapes]), _block(precision, np.ones(len(shapes)))
-
-
-def _block(matrix: NDArray, diagonal: NDArray) -> Vector:
-    out = np.zeros((matrix.shape[0] + diagonal.size,) * 2)
-    out[: matrix.shape[0], : matrix.shape[0]] = matrix
-    out[range(matrix.shape[0], out.shape[0]), range(matrix.shape[0], out.shape[0])] = diagonal
-    return out
+    of_scales = joint.noise.scale**-2 * np.eye(at.scales.size)
+    precision = block_diag(rows.T @ rows, of_scales, np.eye(len(shapes)))
+    return np.column_stack([slope / modulus[:, None], *shapes]), precision
 
 
 def _discrepancy(

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import block_diag
 
 from asphalt_nscd.diagnosis.next_tests.information import Tested
 from asphalt_nscd.diagnosis.observed.noise import Noise
@@ -204,8 +205,9 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
         for name in ("order", "cycles", "time_step")
         if getattr(observed, name) is not None
     }
+    done = replace(observed, nominal_temperature=observed.isotherm, strain=None, quality={})
     more = replace(
-        observed.subset(like),
+        done.subset(like),
         specimen=specimen,
         temperature=temperature,
         frequency=frequency,
@@ -213,20 +215,11 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
         nominal_temperature=temperature,
         **course,
     )
-    columns = ("specimen", "temperature", "frequency", "modulus", "form_factor", "inertia", "amplitude")
     both: dict[str, Any] = {
-        name: np.concatenate([getattr(observed, name), getattr(more, name)]) for name in (*columns, *course)
+        name: np.concatenate([column, getattr(more, name)]) for name, column in done.columns.items()
     }
-    return replace(
-        observed,
-        **both,
-        names=names,
-        nominal_temperature=np.concatenate([observed.isotherm, temperature]),
-        strain=None,
-        quality={},
-        # Effects stay relative to the largest strain and the last cycle of the tests done.
-        whole=observed.table,
-    )
+    # Effects stay relative to the largest strain and the last cycle of the tests done.
+    return replace(done, **both, names=names, whole=observed.table)
 
 
 def _after(observed: Observations, name: str, specimen: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -298,11 +291,8 @@ def scatter_of(within: NDArray, shared: NDArray, block: NDArray) -> NDArray[np.f
         ln|E*| first.
     """
     same = block[:, None] == block
-    out = np.zeros((2 * block.size, 2 * block.size))
-    for k, (single, common) in enumerate(zip(within, shared, strict=True)):
-        at = slice(k * block.size, (k + 1) * block.size)
-        out[at, at] = np.diag(single**2) + np.outer(common, common) * same
-    return out
+    of_tests, of_mountings = within**2, shared[:, :, None] * shared[:, None] * same
+    return block_diag(*map(np.diag, of_tests)) + block_diag(*of_mountings)
 
 
 def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: Costs) -> Iterator[Sweep]:

@@ -123,6 +123,12 @@ class Observations:
             conditions.append(self.amplitude)
         return np.unique(np.column_stack(conditions), axis=0, return_inverse=True)[1].ravel()
 
+    @property
+    def columns(self) -> dict[str, NDArray]:
+        """Those of the fields that have a value for each test."""
+        found = {one.name: getattr(self, one.name) for one in fields(self)}
+        return {name: value for name, value in found.items() if isinstance(value, np.ndarray)}
+
     def known(self, name: str) -> Vector:
         """An optional column that the caller knows to be there.
 
@@ -153,10 +159,6 @@ class Observations:
         Observations
             Of these.
         """
-        columns: dict[str, Any] = {
-            one.name: value[rows]
-            for one in fields(self)
-            if isinstance(value := getattr(self, one.name), np.ndarray)
-        }
+        columns: dict[str, Any] = {name: column[rows] for name, column in self.columns.items()}
         quality = {name: column[rows] for name, column in self.quality.items()}
         return replace(self, **columns, quality=quality, whole=self.table)

@@ -76,8 +76,7 @@ def exceeded(observed: Observations) -> list[Exceeded]:
         if name in observed.quality
         for row in np.flatnonzero(observed.quality[name] > limit.limit)
     ]
-    order = list(LIMITS)
-    return sorted(found, key=lambda one: (one.row, order.index(one.column)))
+    return sorted(found, key=lambda one: one.row)
 
 
 def where(observed: Observations, column: str) -> str:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -16,11 +17,14 @@ import pandas as pd
 from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE, USUAL_THRESHOLD, Z_95
 from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.record import report, rungs
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
+from asphalt_nscd.diagnosis.search.ladder import Rung
+from asphalt_nscd.diagnosis.written import name_at
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.cores import cores
 
@@ -142,38 +146,29 @@ def put_in(diagnosis: Diagnosis, hidden: Hidden) -> Observations:
 def _tried(work: tuple[Diagnosis, Hidden, Trials]) -> dict[str, Any]:
     """One row: what was put in, and what the diagnosis made of it."""
     diagnosis, hidden, trials = work
-    candidate, first = hidden.candidate, hidden.candidate.cause.parameters[0]
-    before = {rung.candidate.key for rung in diagnosis.ladder.rungs}
-    row: dict[str, Any] = {
+    candidate = hidden.candidate
+    named: dict[tuple[str, Place], Rung] = {}
+    established, value, error = False, np.nan, np.nan
+    with suppress(InputError):  # a table that is refused names nothing
+        found = diagnose(put_in(diagnosis, hidden), trials.scatter, draws=DRAWS, seed=trials.seed)
+        named = {rung.candidate.key: rung for rung in found.ladder.rungs}
+        if candidate.key in named:
+            established = found.established(named[candidate.key])
+            value, error = rungs.amplitude(found, candidate)
+    known = {candidate.key, *(rung.candidate.key for rung in diagnosis.ladder.rungs)}
+    return {
         "cause": candidate.cause.name,
         "where": "" if candidate.place is None else candidate.place,
         "times_limit": hidden.times,
         "put_in": candidate.values[0] - hidden.own,
-        "unit": first.unit,
-        "named": 0,
-        "established": 0,
-        "change_found": np.nan,
-        "std_error": np.nan,
-        "within_interval": 0,
-        "named_instead": "",
+        "unit": candidate.cause.parameters[0].unit,
+        "named": int(candidate.key in named),
+        "established": int(established),
+        "change_found": value - hidden.own,
+        "std_error": error,
+        "within_interval": int(abs(value - candidate.values[0]) <= CONFIDENCE * error),
+        "named_instead": "; ".join(name_at(*key) for key in named if key not in known),
     }
-    try:
-        found = diagnose(put_in(diagnosis, hidden), trials.scatter, draws=DRAWS, seed=trials.seed)
-    except InputError:
-        return row
-    for rung in found.ladder.rungs:
-        if rung.candidate.key == candidate.key:
-            value, error = rungs.amplitude(found, rung.candidate)
-            off = abs(value - candidate.values[0])
-            row |= {
-                "named": 1,
-                "established": int(found.established(rung)),
-                "change_found": value - hidden.own,
-                "std_error": error,
-                "within_interval": int(off <= CONFIDENCE * error),
-            }
-    new = [one.candidate for one in found.ladder.rungs if one.candidate.key not in {candidate.key, *before}]
-    return row | {"named_instead": "; ".join(map(rungs.name_of, new))}
 
 
 def summarised(table: pd.DataFrame) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from asphalt_nscd.diagnosis.model.heldout import HeldOut
 from asphalt_nscd.diagnosis.model.joint import Joint
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.scatter import STATED
-from asphalt_nscd.diagnosis.record.rungs import name_of, of_cause, of_law
+from asphalt_nscd.diagnosis.record.rungs import of_cause, of_law
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, cell_residuals
 from asphalt_nscd.diagnosis.simulation.gain import by_tests_alone, errors, simulated_by, with_burgers_laws
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
@@ -42,6 +42,10 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         ladder.append(of_law(diagnosis, specimen, held))
     ladder += [of_cause(diagnosis, rung, specimen, held) for rung in diagnosis.ladder.rungs]
     spread = diagnosis.ladder.estimates_spread
+    wide = (
+        f"These tests lie {spread:.1f} times as far from the free master curve as their scatter suggests. Intervals "
+        f"and limits are therefore multiplied by {spread:.1f}; standard errors are not."
+    )
     left, pattern = diagnosis.ladder.remaining, None
     if left is not None:
         pattern = {"pattern": left.pattern, "p_value": left.p_value, "z": float(np.sqrt(left.gain))}
@@ -66,7 +70,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
             **errors(diagnosis, with_burgers_laws(diagnosis, specimen)),
         },
         "ladder": ladder,
-        "withdrawn": [name_of(rung.candidate) for rung in diagnosis.ladder.withdrawn],
+        "withdrawn": [name_at(*rung.candidate.key) for rung in diagnosis.ladder.withdrawn],
         "indistinguishable": _indistinguishable(diagnosis),
         "not_testable": _not_testable(diagnosis),
         "detection_limits": _limits(diagnosis),
@@ -86,7 +90,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "lack_of_fit_p_value": diagnosis.law_p,
         "largest_pattern_left": pattern,
         "unexplained": _unexplained(diagnosis),
-        "notes": [*diagnosis.notes, *_spread_note(spread)],
+        "notes": [*diagnosis.notes, *[wide] * (spread >= WIDE_SPREAD)],
     }
 
 
@@ -112,7 +116,8 @@ def _burgers_parameters(diagnosis: Diagnosis) -> dict[str, dict[str, float]]:
 def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
     """Groups that this design, or these data, cannot tell apart."""
     rivals = [(rung.candidate, *rung.rivals) for rung in diagnosis.ladder.rungs if rung.rivals]
-    out = [list(map(name_of, group)) for group in (*rivals, *diagnosis.ladder.alike)]
+    groups = (*rivals, *diagnosis.ladder.alike)
+    out = [[name_at(*candidate.key) for candidate in group] for group in groups]
     possible = {cause.name for cause in CATALOGUE if cause.on_bench(diagnosis.observed)}
     # 1/E + C is exactly another Burgers law, and without a static modulus another law of Huet and Sayegh.
     if "loose_clamp" in possible:
@@ -130,7 +135,7 @@ def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
     none = [cause for cause in CATALOGUE if not cause.places(observed)]
     out = [(cause.name, cause.needs or "more frequencies and temperatures") for cause in none]
     shown = {c.key for rung in ladder.rungs for c in (rung.candidate, *rung.rivals)}
-    out += [(name_of(one), one.cause.shows_in) for one in ladder.unseen if one.key not in shown]
+    out += [(name_at(*one.key), one.cause.shows_in) for one in ladder.unseen if one.key not in shown]
     seen = physical_limits(diagnosis)
     nowhere = {name for name, _ in ladder.limits} - {name for name, _ in seen}
     unreached = ladder.limits.keys() - seen
@@ -180,14 +185,6 @@ def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:
         where = "all" if place is None else str(place)
         places[where] = {"value": float(value), "std_error": float(error), "unit": UNITS[name]}
     return out
-
-
-def _spread_note(spread: float) -> list[str]:
-    note = (
-        f"These tests lie {spread:.1f} times as far from the free master curve as their scatter suggests. Intervals "
-        f"and limits are therefore multiplied by {spread:.1f}; standard errors are not."
-    )
-    return [note] * (spread >= WIDE_SPREAD)
 
 
 def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:

@@ -17,22 +17,6 @@ from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import interval_95, name_at, widening
 
 
-def name_of(candidate: Candidate) -> str:
-    """`cause` or `cause @ place`.
-
-    Parameters
-    ----------
-    candidate : Candidate
-        Which cause.
-
-    Returns
-    -------
-    str
-        Its name.
-    """
-    return name_at(*candidate.key)
-
-
 def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
     """What a rung gains in sample and on tests left out, as diagnosis.json has it.
 
@@ -69,7 +53,7 @@ def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held
         "p_value": rung.p_value,
         "gain": {"in_sample": in_sample, "held_out": held_out},
         "probability": diagnosis.probability(rung),
-        "as_good": [name_of(rival) for rival in rung.rivals],
+        "as_good": [name_at(*rival.key) for rival in rung.rivals],
         "established": diagnosis.established(rung),
         "taken_off": diagnosis.taken_off(rung),
         "hangs_on": diagnosis.ladder.hangs_on.get(rung.candidate.key, []),
@@ -135,7 +119,8 @@ def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> 
     """
     ladder, observed = diagnosis.ladder, diagnosis.observed
     spectrum, fitted = ladder.joint.spectrum, ladder.fitted
-    before, after = gain.with_burgers_laws(diagnosis, specimen), gain.with_common_law(diagnosis, specimen)
+    before = gain.with_burgers_laws(diagnosis, specimen)
+    after = gain.nearest(diagnosis, ladder.start, specimen)  # one law for all temperatures, without causes
     held_out, parameters = {}, {}
     if observed.isotherms.size > 2:
         # A Burgers law says nothing of another temperature: before is its fit, which has seen the data.

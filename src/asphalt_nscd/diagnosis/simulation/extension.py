@@ -305,22 +305,13 @@ def extend(
     # More samples than specimens stand for these in turn.
     stands_for = sample.number % len(observed.names)
     frequencies = [frequency for _, frequency, _ in sample.tests]
-    band = 2.0 * np.pi * min(frequencies) / MARGIN, 2.0 * np.pi * max(frequencies) * MARGIN
-
+    band = {"lowest_hz": min(frequencies) / MARGIN, "highest_hz": max(frequencies) * MARGIN}
+    slowest, fastest = (2.0 * np.pi * frequency for frequency in band.values())
     for temperature, frequency, path in sample.tests:
         row = _row(observed, stands_for, temperature, frequency)
         bonds = _bond_modulus(law, observed, row, named)
-        chain, error = kelvin_chain(bonds, *band, TOLERANCE)
-        lowest, highest = (omega / (2.0 * np.pi) for omega in band)
-        write_chain(
-            path,
-            chain,
-            source="diagnosis",
-            temperature=temperature,
-            error=error,
-            lowest_hz=lowest,
-            highest_hz=highest,
-        )
+        chain, error = kelvin_chain(bonds, slowest, fastest, TOLERANCE)
+        write_chain(path, chain, source="diagnosis", temperature=temperature, error=error, **band)
     rig: dict[str, float] = {}
     gamma = float(observed.form_factor[observed.specimen == stands_for][0])
     for candidate in named:

@@ -97,24 +97,6 @@ def nearest(diagnosis: Diagnosis, fitted: Fitted, specimen: NumericalSpecimen) -
     return simulated_by(joint, joint.fit(fitted.law, fitted.scales, fitted.active, CLOSE), specimen)
 
 
-def with_common_law(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Complex:
-    """How the numerical specimen shows one law for all temperatures, without causes.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Of the tests.
-    specimen : NumericalSpecimen
-        Numerical specimen.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        ln E*.
-    """
-    return nearest(diagnosis, diagnosis.ladder.start, specimen)
-
-
 def _frame(diagnosis: Diagnosis, logarithm: Complex) -> pd.DataFrame:
     observed = diagnosis.observed
     return pd.DataFrame(
