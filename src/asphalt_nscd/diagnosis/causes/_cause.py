@@ -153,6 +153,21 @@ class Cause(ABC):
         # Exactly: places are isotherms of the same table.
         return observed.isotherm == place
 
+    def largest(self, observed: Observations) -> float:
+        """Amplitude above which no detection limit is stated, as no cause of this name is larger.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        float
+            In the unit of the first parameter.
+        """
+        return self.parameters[0].high
+
     def impossible(self, values: Vector, observed: Observations) -> str:
         """Why these tests cannot have a cause of this size.
 

@@ -7,6 +7,8 @@ from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Param
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.rheology.shift import GAS_CONSTANT, ZERO_CELSIUS
 
+SECONDARY = 0.2  # of the stiffest |E*|
+
 
 class SecondaryProcess(Cause):
     """A second loss bump (Cole-Cole) with an Arrhenius shift of its own."""
@@ -55,6 +57,21 @@ class SecondaryProcess(Cause):
         slow, fast = -np.log10(observed.omega.min()) + 0.5, -np.log10(observed.omega.max()) - 0.5
         times, energies, exponents = np.linspace(fast, slow, 5), (30.0, 60.0, 90.0), (0.5, 0.65, 0.8)
         return tuple(product(times.tolist(), energies, exponents))
+
+    def largest(self, observed: Observations) -> float:
+        """A share of the stiffest test: a bump above it is the main process, and a law follows it.
+
+        Parameters
+        ----------
+        observed : Observations
+            Measured tests.
+
+        Returns
+        -------
+        float
+            Strength [Pa].
+        """
+        return SECONDARY * float(np.abs(observed.modulus).max())
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """A Cole-Cole process added to E*; its time is that at the middle isotherm of the whole table.

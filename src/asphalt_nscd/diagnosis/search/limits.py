@@ -58,7 +58,7 @@ def detection_limits(
             size = threshold / np.sqrt(found.information[k]) * candidate.typical[0]
             # where the law follows nearly all of a direction, the linear score says little of what it leaves
             size *= _by_refit(joint, fitted, candidate, size, threshold) if share[k] < CLOSE else 1.0
-            if size <= candidate.cause.parameters[0].high:  # no cause is larger
+            if size <= candidate.cause.largest(joint.observed):
                 sizes.setdefault(candidate.key, []).append(size)
                 continue
         hidden = _hidden_bias(joint, fitted, candidate, threshold)

@@ -23,14 +23,17 @@ from asphalt_nscd.diagnosis.model.fit_beside import (
     likeliest,
     of_shapes,
     of_taken,
+    settle,
+    smoothed,
 )
-from asphalt_nscd.diagnosis.model.joint import Candidate
+from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.model.probability import log_odds
-from asphalt_nscd.diagnosis.search import limits
+from asphalt_nscd.diagnosis.search import limits, with_discrepancy
 from asphalt_nscd.diagnosis.search.with_discrepancy import Survey, largest_by_chance
 
 Vector = NDArray[np.float64]
-LARGER = 6  # times that a limit is raised by a quarter where a discrepancy would take the effect up
+LARGER = 1.25  # by which a limit is raised where a discrepancy or the law would take the effect up
+TIMES = 6  # that it is raised at most beside a discrepancy
 
 
 def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]]:
@@ -76,30 +79,49 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
     typical = float(candidate.typical[0])
     one, direction = surveyed.estimates[k], surveyed.pointing.column(k)
     amplitude = (threshold + Z_95) * one.std_error
-    for _ in range(LARGER):
+    for _ in range(TIMES):
         seen = amplitude - Z_95 * one.std_error
         model, pointing = likelihood.moved(state.model, direction, seen - one.amplitude)
         without = likeliest(model, state.variances).misfit
         gain = without - likelihood.estimate(model, pointing, one.variances).misfit
-        gain -= _shapes_at(state, candidate, amplitude)
         # A name asks for both: a gain over the discrepancy, and odds over none that hold what is usual of the cause.
         present = candidate.with_values(np.array([amplitude * typical, *candidate.values[1:]]))
         odds = log_odds(present, state.plain.observed, gain, one.std_error * typical)
         if gain > TWENTY_TIMES and odds > logit(POSSIBLE):
             break
-        amplitude *= 1.25
+        amplitude *= LARGER
     return amplitude
 
 
-def _shapes_at(state: State, candidate: Candidate, amplitude: float) -> float:
-    """`of_shapes` of a cause of this amplitude [typical units], were it in the fit."""
-    if not candidate.shaped:
-        return 0.0
-    most = min(amplitude * candidate.typical[0], candidate.cause.parameters[0].high)
-    present = candidate.with_values(np.array([most, *candidate.values[1:]]))
-    active = (*state.fitted.active, present)
-    fitted = state.wide.linearise(state.fitted.law, state.fitted.scales, active)
-    return of_shapes(fitted, present, state.plain.observed)
+def _carried_from(state: State, candidate: Candidate, std_error: float, threshold: float) -> float:
+    """Amplitude [typical units] from which a cause with shapes gets its name; above its largest where it never does.
+
+    It is put into these tests, less what chance may take off it, and judged as the search would judge it.
+    """
+    at, active, typical = state.fitted, state.fitted.active, float(candidate.typical[0])
+    stands = state.wide.apparent(at.law, active, at.scales)[0]
+    amplitude = (threshold + Z_95) * std_error
+    while amplitude * typical <= candidate.cause.largest(state.plain.observed):
+        size = (amplitude - Z_95 * std_error) * typical
+        present = candidate.with_values(np.array([size, *candidate.values[1:]]))
+        moved = state.wide.apparent(at.law, (*active, present), at.scales)[0] / stands
+        observed = replace(state.plain.observed, modulus=state.plain.observed.modulus * moved)
+        plain = Joint(observed, state.plain.base, state.plain.noise)
+        # A rougher law follows more of it.
+        before = smoothed(settle(plain, state.model.processes, at, active, state.variances))
+        after = settle(plain, state.model.processes, at, (*active, present), state.variances)
+        taken = after.fitted.active[-1]
+        gain = before.misfit - after.misfit - of_shapes(after.fitted, taken, observed)
+        own = of_taken(after, taken)
+        odds = log_odds(taken, observed, gain, own.std_error * typical)
+        if (
+            gain > TWENTY_TIMES
+            and odds > logit(POSSIBLE)
+            and with_discrepancy.stands(before, after, taken, own)
+        ):
+            break
+        amplitude *= LARGER
+    return amplitude
 
 
 def detection_limits(
@@ -146,9 +168,15 @@ def detection_limits(
         for group in shapes.values():
             # Of several shapes the one that most of them exceed stands for all.
             k = sorted(group, key=lambda j: errors[j])[int(limits.MOST * (len(group) - 1))]
-            needed = _named_from(state, surveyed, k, threshold) / (threshold + Z_95)
+            if alone and surveyed.candidates[k].shaped:
+                needed = _carried_from(state, surveyed.candidates[k], float(errors[k]), threshold)
+            else:
+                needed = _named_from(state, surveyed, k, threshold)
+            needed /= threshold + Z_95
             # In reach but for the discrepancy, which takes up all that is physical: the table shows none.
-            most = surveyed.candidates[k].cause.parameters[0].high / surveyed.candidates[k].typical[0]
+            most = (
+                surveyed.candidates[k].cause.largest(state.plain.observed) / surveyed.candidates[k].typical[0]
+            )
             if surveyed.estimates[k].std_error <= most / (threshold + Z_95) < needed:
                 taken_up.add(surveyed.candidates[k].key)
             at_least = errors[k] if len(group) > 1 else surveyed.estimates[k].std_error

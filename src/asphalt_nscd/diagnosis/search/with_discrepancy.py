@@ -255,7 +255,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
             own = of_taken(after, taken)
             # The law refitted with a cause leaves it more than the law that had followed it.
             z[k] = max(z[k], abs(own.z))
-            if not _stands(state, after, taken, own):
+            if not stands(state, after, taken, own):
                 continue
             odds[k] = log_odds(taken, state.plain.observed, gain, own.std_error * float(taken.typical[0]))
             if z[k] > least:
@@ -275,11 +275,25 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k])
 
 
-def _stands(before: State, state: State, taken: Candidate, own: Estimate) -> bool:
+def stands(before: State, state: State, taken: Candidate, own: Estimate) -> bool:
     """Whether a cause competes for the place of the next name: what does not takes no probability from one that does.
 
     Its size is not zero. One with shapes of its own follows almost any structure: it must be carried by the whole
     table, and its shapes must not be at the edge of what they may be.
+
+    Parameters
+    ----------
+    before, state : State
+        The fits without the cause and with it.
+    taken : Candidate
+        The cause as fitted.
+    own : Estimate
+        Its size.
+
+    Returns
+    -------
+    bool
+        True if it does.
     """
     if not taken.shaped:
         return bool(abs(own.z) >= CONFIDENCE)
