@@ -52,6 +52,34 @@ def test_a_hidden_fault_is_told_alone_with_its_place_and_size(place):
     assert one.probability > 0.5 and climbed.torn == [] and climbed.rungs == []
 
 
+@pytest.fixture(scope="module")
+def smallest():
+    """Limits of a table without a fault, by place."""
+    ladder = diagnose(table(3), draws=FEW).ladder
+    return {
+        (one.kind, one.specimen, one.isotherm): ladder.estimates_spread * one.size for one in ladder.smallest
+    }
+
+
+HIDDEN = {
+    (OFFSET, "b", None): lambda size: offset(lambda s, t: s == 1, size),
+    (DELAY, "c", None): lambda size: lambda e, s, t, w: e * np.exp(1j * size * w * (s == 2)),
+    (ISOTHERM, None, 10.0): lambda size: offset(lambda s, t: t == 10, size),
+    (SWEEP, "b", 15.0): lambda size: (
+        lambda e, s, t, w: LAW.complex_modulus(w, t + np.where((s == 1) & (t == 15), size, 0.0))
+    ),
+}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("place", HIDDEN, ids=lambda place: place[0])
+def test_a_fault_is_told_at_three_limits_and_not_at_a_third(smallest, place):
+    effect, limit = HIDDEN[place], smallest[place]
+    (one,) = diagnose(table(3, effect(3.0 * limit)), draws=FEW).ladder.odd
+    assert (one.kind, one.specimen, one.isotherm) == place
+    assert diagnose(table(3, effect(limit / 3.0)), draws=FEW).ladder.odd == []
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "cause", [None, ("guide_friction", None), ("loose_clamp", "b"), ("temperature_bias", 15.0)]

@@ -22,6 +22,10 @@ OUTSIDE = (
     "exchanged specimens", "aliasing", "zero drift", "delay of one specimen", "gain with temperature",
     "copied block", "wrong top frequency", "low-pass filter", "exchanged isotherms", "resonance",
 )  # fmt: skip
+OF_ONE_PLACE = (
+    "offset of one specimen", "delay of one specimen", "offset of one isotherm",
+    "temperature of one specimen on one isotherm",
+)  # fmt: skip
 SLIPS = ("single bad test", "slip of ten", "wrong recorded temperature")
 LARGEST = {
     "temperature_bias": 8.0,
@@ -31,6 +35,7 @@ LARGEST = {
     "strain_softening": 0.7,
 }
 LEAST_PHASE = 0.2  # deg
+LARGEST_PHASE = 10.0  # deg, of an offset
 ONE_SIGN = (
     "self_heating",
     "loose_clamp",
@@ -45,15 +50,15 @@ Limits = Mapping[str, Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Case:
-    """suite: nothing, catalogue, pair, outside or slip; ratio: size over the stated limit, NaN where none counts."""
+    """suite: nothing, catalogue, pair, outside, place or slip; ratio: size over its limit, NaN where none counts."""
 
     suite: str
     faults: tuple[Fault, ...] = ()
     ratio: float = np.nan
 
 
-def cases(campaign: Campaign, number: int, limits: Limits) -> Iterator[Case]:
-    """What follows the campaign without a fault, whose diagnosis states the limits."""
+def cases(campaign: Campaign, number: int, limits: Limits, of_one_place: Limits) -> Iterator[Case]:
+    """What follows the campaign without a fault, whose diagnosis states the limits, those of one place apart."""
     rng = np.random.default_rng([SEED, number, 1])
     real = "measured" in campaign.about
     pool = REAL_CAUSES if real else CATALOGUE
@@ -71,6 +76,10 @@ def cases(campaign: Campaign, number: int, limits: Limits) -> Iterator[Case]:
     for turn in range(2):
         kind = OUTSIDE[(2 * number + turn) % len(OUTSIDE)]
         yield Case("outside", (_outside(campaign, kind, limits, rng),))
+    kind = OF_ONE_PLACE[number % len(OF_ONE_PLACE)]
+    fault = None if real else _of_one_place(campaign, kind, of_one_place, [SEED, number, 2])
+    if fault is not None:
+        yield Case("place", (fault,), AT_ONCE)
     yield Case("slip", (_slip(campaign, SLIPS[number % len(SLIPS)], rng),))
     if len(campaign.tests["frequency_Hz"].unique()) > 3:
         yield Case("slip", (_slip(campaign, "masked pair of bad tests", rng),))
@@ -154,6 +163,27 @@ def _outside(campaign: Campaign, kind: str, limits: Limits, rng: np.random.Gener
     }
     confined = (top,) if kind in ("aliasing", "wrong top frequency") else ()
     return Fault(kind, sizes[kind], frequencies=confined)
+
+
+def _of_one_place(campaign: Campaign, kind: str, limits: Limits, seed: list[int]) -> Fault | None:
+    """A fault at three of its own limits, at a place where that is physical; None where there is none."""
+    rng = np.random.default_rng(seed)
+    limit, most = (
+        limits.get(kind, {"places": []}),
+        LARGEST["temperature_bias"] if "temperature" in kind else np.inf,
+    )
+    most = LARGEST_PHASE if "offset" in kind else most
+    at = [dict(one) for one in limit["places"] if AT_ONCE * one["value"] <= most]
+    for one in at:
+        if (t := one["temperature_C"]) is not None:
+            one["temperature_C"] = min(campaign.isotherms, key=lambda own: abs(own - t))
+    at = [one for one in at if campaign.broken is None or one["temperature_C"] != campaign.broken]
+    if not at:
+        return None
+    one = at[int(rng.integers(len(at)))]
+    size = AT_ONCE * one["value"] * float(rng.choice((-1.0, 1.0)))
+    fault = Fault(kind, size, specimen=one["specimen"], temperature=one["temperature_C"])
+    return fault if "temperature" in kind else _physical(campaign, fault, 1.0)
 
 
 def _slip(campaign: Campaign, kind: str, rng: np.random.Generator) -> Fault:

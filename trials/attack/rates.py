@@ -9,10 +9,9 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-ONE_SPECIMEN_OR_ISOTHERM = (
-    "offset of one specimen", "delay of one specimen", "offset of one isotherm",
-    "temperature of one specimen on one isotherm",
-)  # fmt: skip
+from .plan import OF_ONE_PLACE
+
+SWEEP = "temperature of one specimen on one isotherm"
 BINS = (0.0, 0.5, 0.7, 0.9, 0.95, 0.99, 1.0)  # of stated probabilities
 
 
@@ -111,7 +110,9 @@ def summary(rows: pd.DataFrame, names: pd.DataFrame, before: pd.DataFrame | None
     )
     false_bias = noted[["wrong_confident", "wrong_possible"]].sum(axis=1) > 0
     broken = empty.loc[empty["broken"], "broken_found"]
-    own = outside[outside["fault"].isin(ONE_SPECIMEN_OR_ISOTHERM)]
+    own = invented[invented["suite"] == "place"]
+    drawn = outside[outside["fault"].isin(OF_ONE_PLACE)]
+    warm = drawn["fault"] == SWEEP
     beside = invented.loc[invented["suite"].isin(("catalogue", "pair")), "wrong_confident"] > 0
     covered = put["covered"].tolist() + pair["covered"].tolist()
     worst = coverage(invented).query("cause != 'all' and n >= 5")["rate"]
@@ -136,6 +137,8 @@ def summary(rows: pd.DataFrame, names: pd.DataFrame, before: pd.DataFrame | None
         line("nothing put in: a test left out that is good", "reported", empty["good_rejected"] > 0),
         line("outside the catalogue: told", "reported", outside["told"]),
         line("of one specimen or one isotherm: told", ">= 90 %", own["told"], low=0.90),
+        line("of one specimen or one isotherm, sizes drawn: told", "reported", drawn.loc[~warm, "told"]),
+        line("temperature of one specimen 1 to 3 K off: told", "reported", drawn.loc[warm, "told"]),
         line("outside: a wrong name with confidence", "<= 3 %", outside["wrong_confident"] > 0, high=0.03),
         line("outside: a wrong possible name", "reported", outside["wrong_possible"] > 0),
         line("single bad tests: left out", "reported", alone.get("removed", [])),

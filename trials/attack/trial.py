@@ -67,7 +67,8 @@ def attacked(number: int, size: Size) -> Iterator[dict[str, Any]]:
     yield _line(under, bare, content, answer, own)
     if size.tables <= number < size.tables + size.empty:
         return
-    for case in plan.cases(under, turn, content["detection_limits"]):
+    limits = content["detection_limits"], content.get("detection_limits_of_one_place", {})
+    for case in plan.cases(under, turn, *limits):
         content, answer = answered(put(under, case.faults), under.bench)
         yield _line(under, case, content, answer, own)
 

@@ -208,7 +208,7 @@ def test_a_cause_comes_at_multiples_of_its_limit_in_its_place(bending):
         "phase_offset": {"value": 0.4, "unit": "deg"},
         "guide_friction": {"value": 1e7, "unit": "N"},  # of another unit: not taken for pascals
     }  # fmt: skip
-    drawn = [case for number in range(40) for case in plan.cases(bending, number, limits)]
+    drawn = [case for number in range(40) for case in plan.cases(bending, number, limits, {})]
     singles = [case for case in drawn if case.suite == "catalogue"]
     assert {case.faults[0].kind for case in singles} == {"loose_clamp", "phase_offset"}
     for case in singles:
@@ -220,11 +220,27 @@ def test_a_cause_comes_at_multiples_of_its_limit_in_its_place(bending):
     assert {f.kind for case in drawn if case.suite == "outside" for f in case.faults} == set(plan.OUTSIDE)
 
 
+def test_a_fault_of_one_place_comes_at_three_of_its_own_limits_where_that_is_physical(bending):
+    where, t = {"specimen": "S1", "temperature_C": None}, bending.isotherms[0]
+    limits = {
+        "offset of one specimen": {
+            "places": [where | {"value": 0.7}, where | {"specimen": "S2", "value": 4.0}]
+        },
+        "temperature of one specimen on one isotherm": {
+            "places": [where | {"temperature_C": t, "value": 3.0}]
+        },
+    }
+    drawn = [case for number in range(40) for case in plan.cases(bending, number, {}, limits)]
+    faults = [case.faults[0] for case in drawn if case.suite == "place"]
+    assert {(fault.kind, fault.specimen) for fault in faults} == {("offset of one specimen", "S1")}
+    assert all(abs(fault.size) == pytest.approx(2.1) for fault in faults)
+
+
 def test_no_table_is_handed_over_with_phases_below_zero():
     flat = Campaign(
         "flat", "bending", invented(0, 1).tests, lambda w, t: np.full(w.size, 23.0 + 0.02j), 0.0, 0.0
     )
     for number in range(6):
-        for case in plan.cases(flat, number, {"phase_offset": {"value": 0.5, "unit": "deg"}}):
+        for case in plan.cases(flat, number, {"phase_offset": {"value": 0.5, "unit": "deg"}}, {}):
             if case.suite == "catalogue":
                 assert put(flat, case.faults)["phase_deg"].min() > 0.2

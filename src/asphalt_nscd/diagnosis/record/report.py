@@ -74,6 +74,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "indistinguishable": _indistinguishable(diagnosis),
         "not_testable": _not_testable(diagnosis),
         "detection_limits": _limits(diagnosis),
+        "detection_limits_of_one_place": _limits_of_one_place(diagnosis),
         "estimates": _estimates(diagnosis),
         "estimates_spread": spread,
         "discrepancy": [
@@ -159,6 +160,19 @@ def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
         if place is not None:
             entry["confined_to"] = CONFINED_TO[name]
             entry.setdefault("places", {})[str(place)] = float(value)
+    return limits
+
+
+def _limits_of_one_place(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
+    """Size told with 95 % probability: of each fault of one place, at each place where it would be physical."""
+    limits: dict[str, dict[str, Any]] = {}
+    factor = widening(diagnosis.ladder.estimates_spread)
+    for one in diagnosis.ladder.smallest:
+        if (value := factor * one.size) <= one.largest:
+            entry = limits.setdefault(one.kind, {"value": value, "unit": one.unit, "places": []})
+            entry["value"] = min(entry["value"], value)
+            where = {"specimen": one.specimen, "temperature_C": one.isotherm, "value": value}
+            entry["places"].append(where)
     return limits
 
 

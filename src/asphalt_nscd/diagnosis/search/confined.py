@@ -24,6 +24,7 @@ from asphalt_nscd.diagnosis.criteria import (
     NOTICED,
     POSSIBLE,
     TORN,
+    Z_95,
 )
 from asphalt_nscd.diagnosis.model import chance, discrepancy, laboratory, likelihood
 from asphalt_nscd.diagnosis.model.fit_beside import State
@@ -49,6 +50,16 @@ class Odd:
     size: float = 0.0
     std_error: float = np.inf
     probability: float = 0.0
+
+    @property
+    def unit(self) -> str:
+        """Of its size."""
+        return _CAUSES[_AS[self.kind]].parameters[0].unit
+
+    @property
+    def largest(self) -> float:
+        """Size that is physical, in its unit."""
+        return _CAUSES[_AS[self.kind]].parameters[0].high
 
     def content(self, widened: float, highest: float) -> dict[str, Any]:
         """As `diagnosis.json` holds it, among what is odd or contradictory.
@@ -106,7 +117,7 @@ class _Beside:
         return _Beside(linear, likelihood.reduce(self.model.processes, linear))
 
 
-def find(state: State, surveyed: Survey) -> tuple[list[Odd], list[float]]:
+def find(state: State, surveyed: Survey) -> tuple[list[Odd], list[float], list[Odd]]:
     """Faults of one place beside the last fit, and isotherms that follow no one law with the others.
 
     Parameters
@@ -122,10 +133,13 @@ def find(state: State, surveyed: Survey) -> tuple[list[Odd], list[float]]:
         Those likelier than not, the likeliest first.
     list of float
         Torn isotherms [degC], once these faults are taken off.
+    list of Odd
+        Every fault that the table can show, of the size told with 95 % probability.
     """
     beside, noise = _beside(state)
-    places, effects = _effects(state)
-    whitened = noise.whiten(effects)
+    every, effects = _effects(state)
+    places, directions = list(every), noise.whiten(effects)
+    whitened = directions
     named = _of_catalogue(state, surveyed)
     found: list[Odd] = []
     while len(found) < MOST_CAUSES and places:
@@ -139,7 +153,8 @@ def find(state: State, surveyed: Survey) -> tuple[list[Odd], list[float]]:
         beside = beside.without(whitened[:, k], amplitude)
         del places[k]
         whitened = np.delete(whitened, k, axis=1)
-    return found, _torn(beside, state.plain.observed.held_isotherms)
+    torn = _torn(beside, state.plain.observed.held_isotherms)
+    return found, torn, _limits(beside, every, directions)
 
 
 def _beside(state: State) -> tuple[_Beside, Noise]:
@@ -212,6 +227,25 @@ def _judged(beside: _Beside, places: list[Odd], whitened: NDArray) -> Iterator[t
         count = sum(other.kind == place.kind for other in places)
         odds = odds_of(CONFINED[place.kind], count, size, error, nothing.misfit - one.misfit)
         yield odds, int(k), replace(place, size=size, std_error=error), one.amplitude
+
+
+def _limits(beside: _Beside, places: list[Odd], whitened: NDArray) -> list[Odd]:
+    """Each fault at the size told with 95 % probability, where a cause may be so large."""
+    if not places:
+        return []
+    along = likelihood.directions(beside.model, beside.linear, whitened)
+    information, _ = likelihood.weighed(beside.model, along, beside.nothing().variances)
+    kinds = [place.kind for place in places]
+    limits = []
+    for place, own in zip(places, np.diag(information), strict=True):
+        amplitude, expected = _CAUSES[_AS[place.kind]].parameters[0], CONFINED[place.kind]
+        error = amplitude.typical / np.sqrt(max(own, 1e-12))
+        # odds without a gain, which half of z squared has to beat
+        prior = odds_of(expected, kinds.count(place.kind), NEARLY_SURE * error, error, 0.0)
+        size = (max(NEARLY_SURE, np.sqrt(max(-2.0 * prior, 0.0))) + Z_95) * error
+        if size <= place.largest:
+            limits.append(replace(place, size=size, std_error=error))
+    return limits
 
 
 def _likelier(model: Reduced, cause: Direction | None, start: NDArray) -> Estimate:

@@ -112,6 +112,7 @@ class Ladder:
     estimates: dict[tuple, tuple[float, float]] = field(default_factory=dict)
     odd: list[confined.Odd] = field(default_factory=list)
     torn: list[float] = field(default_factory=list)
+    smallest: list[confined.Odd] = field(default_factory=list)  # faults of one place at their limits
     doubts: dict[Key, list[str]] = field(default_factory=dict)
 
     @property
@@ -218,7 +219,7 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
     ladder.doubts = find_doubts(end.plain, end.fitted, named, np.sqrt(end.variances).tolist())
     ladder.hangs_on = {c.key: with_discrepancy.hangs_on(end, c) for c in end.fitted.active}
     ladder.limits, ladder.unseen, ladder.alike = limits_beside.detection_limits(end, survey, draws, random)
-    ladder.odd, ladder.torn = confined.find(end, survey)
+    ladder.odd, ladder.torn, ladder.smallest = confined.find(end, survey)
     sizes = np.sqrt(end.variances)
     ladder.discrepancy = dict(zip(end.model.processes.described, sizes.tolist(), strict=True))
     ladder.remaining = _remaining(end.plain, end.linear, draws, random)
