@@ -164,7 +164,7 @@ def _limits(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
 
 
 def _limits_of_one_place(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
-    """Size told with 95 % probability: of each fault of one place, at each place where it would be physical."""
+    """Size that would usually be told: of each fault of one place, at each place where it would be physical."""
     limits: dict[str, dict[str, Any]] = {}
     factor = widening(diagnosis.ladder.estimates_spread)
     for one in diagnosis.ladder.smallest:
