@@ -24,6 +24,29 @@ def test_a_slip_condemns_itself_alone(factor, frequency, temperature):
     assert all(0.0 <= phase <= 90.0 for phase in map(_expected, reasons) if phase is not None)
 
 
+@pytest.mark.parametrize("factor", [10.0, 0.1])
+@pytest.mark.parametrize("frequency", [0.1, 1.0, 25.0])
+def test_a_slip_of_ten_is_left_out_of_a_sweep_of_three(frequency, factor):
+    """Of three tests none is judged by causality, and three replicates alone take none out."""
+    whole = campaign()
+    three = whole.subset(np.isin(whole.frequency, [0.1, 1.0, 25.0]))
+    row = row_of(three, 1, 4.0, frequency)
+    assert out(three) == []
+    slipped = altered(three, [row], modulus=np.log(factor))
+    assert out(slipped) == [row]
+    (found,) = [one for one in suspects.find(slipped) if one.row == row]
+    expected = float(found.reasons[0].partition("expected about ")[2].split()[0])
+    assert expected == pytest.approx(abs(three.modulus[row]) / 1e6, rel=0.3)
+    sweep = (slipped.specimen == 1) & (slipped.temperature == 4.0)
+    # Two of three: the one that is right is not taken for the wrong one.
+    assert out(altered(three, np.flatnonzero(sweep)[:2], modulus=np.log(factor))) == []
+    if frequency != 1.0:
+        two = slipped.subset(~sweep | np.isin(slipped.frequency, [frequency, 1.0]))
+        assert out(two) == [row_of(two, 1, 4.0, frequency)]
+        alone = two.subset(two.specimen == 1)
+        assert wrong_values.expected_of_tens(alone) == {}
+
+
 def _expected(reason):
     """The phase [deg] that a sentence expects."""
     _, found, rest = reason.partition(" deg, expected ")

@@ -13,7 +13,7 @@ ends of the band, mostly at the lowest frequency, where nothing on one side says
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -23,7 +23,7 @@ from scipy.special import logsumexp, stdtr
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.observed.copies import copied
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.screening import contested, within_isotherm
+from asphalt_nscd.diagnosis.screening import contested, within_isotherm, wrong_values
 from asphalt_nscd.diagnosis.screening.exchanged import Exchange
 from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
 from asphalt_nscd.diagnosis.screening.within_isotherm import BEND_WEIGHTS, BENDS, SCATTER, LooPrediction
@@ -128,6 +128,12 @@ def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspe
     list of Suspect
         By row.
     """
+    if tens := wrong_values.expected_of_tens(observed):
+        # Nothing else is judged beside them: they would bend the others, and the scatter with them.
+        kept = np.setdiff1d(np.arange(observed.size), list(tens))
+        rest = [replace(one, row=int(kept[one.row])) for one in find(observed.subset(kept))]
+        slipped = [Suspect(row, (_of_ten(observed, row, size),), False) for row, size in tens.items()]
+        return sorted([*rest, *slipped], key=lambda one: one.row)
     loo = loo or within_isotherm.leave_one_out(observed)
     broken = np.isin(observed.isotherm, _broken_temperatures(observed, loo))
     # Modulus, phase and both together of each judged test are looked at (Bonferroni).
@@ -383,6 +389,13 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
         z = apart[judged] / np.maximum(np.maximum(own[judged], usual / opened[judged]), 1e-9)
         chance[judged] = 2.0 * stdtr(sum(freedoms), -np.abs(z))
     return apart, chance
+
+
+def _of_ten(observed: Observations, row: int, expected: float) -> str:
+    return (
+        f"|E*| {abs(observed.modulus[row]) / 1e6:.0f} MPa, expected about {expected / 1e6:.0f} MPa from its phase and "
+        "the other frequencies; look for a misplaced decimal point"
+    )
 
 
 def _causal_reason(observed: Observations, loo: LooPrediction, row: int, column: int) -> str:

@@ -14,11 +14,21 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logsumexp
 
+from asphalt_nscd.diagnosis.observed.observations import Observations
+
 WIDE = 0.3, 0.2  # standard deviations of ln|E*| and of the phase [rad] that are merely wrong
 RARE = float(np.log(0.01))  # ln odds of one wrong value, and of a second one in the same test
 WITH_IT = float(np.log(0.3))
 SURE = float(np.log(20.0))  # ln odds at which a set is taken out
 LEAST_FOR_TWO = 5  # tests of an isotherm, of which two may be wrong
+LEAST_FOR_TEN = (
+    3  # tests of a sweep, of which one may be ten times off: of two neither is known to be the wrong one
+)
+TEN, NEAR_TEN = (
+    float(np.log(10.0)),
+    0.6,
+)  # of ln|E*|; what phases tell of |E*| to first order, and broken isotherms
+ASTRAY = float(np.log(3.0))  # of ln|E*|, by which the other specimens must say so too
 
 
 @cache
@@ -73,3 +83,38 @@ def likeliest(
             if odds[number, place] > best[number][0]:
                 best[number] = float(odds[number, place]), sets[place]
     return best
+
+
+def expected_of_tens(observed: Observations) -> dict[int, float]:
+    """Tests whose |E*| is ten times what the others of their sweep ask for, or a tenth: a decimal point.
+
+    Every other test of the sweep must say so, by the phase of both (Kramers and Kronig to first order), and the other
+    specimens, where they have the condition. No error of a test does that.
+
+    Parameters
+    ----------
+    observed : Observations
+        Measured tests.
+
+    Returns
+    -------
+    dict of int to float
+        |E*| [Pa] that the sweep asks for, of each such row.
+    """
+    modulus, phase = observed.logarithm.real, observed.logarithm.imag
+    found = {}
+    for k, t in np.unique(np.column_stack([observed.specimen, observed.isotherm]), axis=0):
+        rows = np.flatnonzero((observed.specimen == k) & (observed.isotherm == t))
+        log_f, mean = np.log(observed.frequency[rows]), 0.5 * (phase[rows, None] + phase[rows])
+        asked = modulus[rows] + mean * (2.0 / np.pi) * (log_f[:, None] - log_f)
+        for place in range(rows.size):
+            row, others = int(rows[place]), np.delete(asked[place], place)
+            off = modulus[row] - others
+            same = (observed.cell == observed.cell[row]) & (observed.specimen != k)
+            # Of two tests without replicates neither is known to be the wrong one.
+            if off.size < (1 if same.any() else 2):
+                continue
+            beyond = modulus[row] - np.median(modulus[same]) if same.any() else off[0]
+            if (np.abs(np.abs(off) - TEN) < NEAR_TEN).all() and beyond * np.sign(off).mean() > ASTRAY:
+                found[row] = float(np.exp(np.median(others)))
+    return found
