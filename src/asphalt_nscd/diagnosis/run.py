@@ -300,7 +300,7 @@ def conclude(
     content["instructions"] = instructions(diagnosis, ahead=ahead)
     progress("Diagnose", 5, STEPS)
     broken = suspects.broken_isotherms(observed, loo, diagnosis.ladder.torn)
-    content["contradictory_isotherms"] = [
+    contradictory: list[dict[str, Any]] = [
         {
             "temperature_C": one.temperature,
             "sentence": one.sentence,
@@ -310,10 +310,10 @@ def conclude(
         for one in broken
         for worst in [int(np.argmax(np.abs(one.difference)))]
     ]
-    to_check = [one.temperature for one in broken]
-    turned = [one for one in own if "offset_deg" in one and one["temperature_C"] not in to_check]
-    content["contradictory_isotherms"] += turned
-    to_check += [one["temperature_C"] for one in turned]
+    told = [one.temperature for one in broken]
+    contradictory += [one for one in own if "offset_deg" in one and one["temperature_C"] not in told]
+    content["contradictory_isotherms"] = contradictory
+    to_check = [one["temperature_C"] for one in contradictory]
     content["trust"] = trust(observed, diagnosis, levels.rows(observed, chain(*odd, temperatures)), to_check)
     standard = reported.standard_values(diagnosis)
     content["reported"] = standard.iloc[0].to_dict()

@@ -261,7 +261,8 @@ def _together(each: Sequence[_Evidence], taken: Vector) -> _Whole:
         return _Whole(mean, error, mean / error, float(np.sqrt(excess)), differ)
     # A mixture of sound campaigns and those astray, by EM: one far off keeps 1/LARGER^2 of its weight.
     for _ in range(ITERATIONS):
-        pulled = weight * (1.0 - _astray(value - mean, weight) * (1.0 - criteria.LARGER**-2))
+        sound, astray = _densities(value - mean, weight)
+        pulled = weight * (1.0 - astray / (sound + astray) * (1.0 - criteria.LARGER**-2))
         mean = float(pulled @ value / pulled.sum())
     error = float((pulled.sum() * free) ** -0.5)
     # A mixture is not normal: its likelihood ratio says how sure the mean is, not mean over error.
@@ -271,12 +272,6 @@ def _together(each: Sequence[_Evidence], taken: Vector) -> _Whole:
 
 def _log_likelihood(left: Vector, weight: Vector) -> float:
     return float(np.log(_densities(left, weight).sum(axis=0)).sum())
-
-
-def _astray(left: Vector, weight: Vector) -> Vector:
-    """Probability (n,) that a campaign is in error by more than it says."""
-    sound, wrong = _densities(left, weight)
-    return wrong / (sound + wrong)
 
 
 def _densities(left: Vector, weight: Vector) -> Vector:

@@ -142,9 +142,8 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     # The law stands at its best already, so that only the discrepancy moves.
     left = parts(observed.logarithm - fitted.modelled)
     moved = known.expected(parts(linear.nuisance[old.rows]).T @ np.linalg.solve(old.scatter, left))
-    departing = _departures(linear, moved, columns, _doubtful(diagnosis))
     departures = [
-        *(Departure("linear", _halved(table, t, one, linear), isotherm=t) for t, one in departing.items()),
+        *_not_linear(diagnosis, table, linear, moved, columns),
         *(_again(diagnosis, table, linear, one) for one in _odd(diagnosis)),
         *_repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear),
     ]
@@ -190,28 +189,17 @@ def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mappi
     return Departure("level", effect, one["specimen"], one["temperature_C"], odd=one)
 
 
-def _departures(
-    linear: Linear, moved: NDArray, columns: Columns, doubtful: Sequence[float]
-) -> dict[float, Complex]:
-    """By isotherm [degC], ln E* (N,) that its own discrepancy takes up."""
-    found: dict[float, Complex] = {}
-    for process, at in columns:
-        t = process.isotherm
-        if t is not None and t in doubtful:
-            found[t] = found.get(t, 0.0) + linear.nuisance[:, at] @ moved[at]
-    return found
-
-
-def _doubtful(diagnosis: Diagnosis) -> list[float]:
-    """Isotherms [degC] whose own discrepancy is larger than the scatter of a test."""
-    large = [one.isotherm for one, size in diagnosis.ladder.discrepancy.items() if size > 1.0]
-    return [float(t) for t in diagnosis.observed.isotherms if t in large]
-
-
-def _halved(table: Observations, t: float, departure: Complex, linear: Linear) -> Complex:
-    here = np.zeros(linear.effects.shape[0], bool)
-    here[: table.size] = (table.isotherm == t) & at_half_strain(table)
-    return np.where(here, -HALF * departure, 0.0)
+def _not_linear(
+    diagnosis: Diagnosis, table: Observations, linear: Linear, moved: NDArray, columns: Columns
+) -> Iterator[Departure]:
+    """What half the strain changes at each isotherm whose own discrepancy is larger than the scatter of a test."""
+    large = {one.isotherm for one, size in diagnosis.ladder.discrepancy.items() if size > 1.0}
+    for t in dict.fromkeys(process.isotherm for process, _ in columns):
+        if t is not None and t in large:
+            own = sum(linear.nuisance[:, at] @ moved[at] for process, at in columns if process.isotherm == t)
+            here = np.zeros(linear.effects.shape[0], bool)
+            here[: table.size] = (table.isotherm == t) & at_half_strain(table)
+            yield Departure("linear", np.where(here, -HALF * own, 0.0), isotherm=t)
 
 
 def _candidates(

@@ -45,11 +45,10 @@ def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held
             before, after = (held.predictions(fitted, part) for fitted in (rung.before, rung.after))
             errors = gain.before_and_after(diagnosis, before, after, inner=part == "isotherm")
             held_out[f"leave_one_{part}_out"] = errors
-    final = _final(diagnosis, rung.candidate)
     return {
         "cause": rung.candidate.cause.name,
         "where": rung.candidate.place,
-        "parameters": _parameters(diagnosis, final),
+        "parameters": _parameters(diagnosis, _final(diagnosis, rung.candidate)),
         "p_value": rung.p_value,
         "gain": {"in_sample": in_sample, "held_out": held_out},
         "probability": diagnosis.probability(rung),

@@ -163,17 +163,15 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
     """
     both = f"the free master curve with {'it' if len(without) == 1 else 'them'}"
     notes = [f"law.json is fitted without {joined(without)}, {both}."] if without else []
-    observed = diagnosis.observed
-    off = np.log(law.complex_modulus(observed.omega, observed.temperature) / _without_causes(diagnosis))
-    sigma = diagnosis.noise.sigma
-    miss = float(np.sqrt(np.mean((off.real / sigma[0]) ** 2 + (off.imag / sigma[1]) ** 2) / 2.0))
+    off = misfit_of_form(diagnosis, law, np.ones(diagnosis.observed.size, bool))
+    miss = np.sqrt(np.mean(np.square(np.divide(off, diagnosis.noise.sigma))))
     if miss < FAR or not diagnosis.replicated:  # else the scatter itself is a guess
         return notes
     return [
         *notes,
         "law.json has constants of its own: do not mix them with those of the free master curve. The two laws differ "
-        f"by {100.0 * np.sqrt(np.mean(off.real**2)):.2g} % in |E*| and {np.degrees(np.sqrt(np.mean(off.imag**2))):.1f} "
-        f"deg in phase.{'' if without else ' No {law.title} law fits these tests better.'}",
+        f"by {100.0 * off[0]:.2g} % in |E*| and {np.degrees(off[1]):.1f} deg in phase."
+        f"{'' if without else ' No {law.title} law fits these tests better.'}",
     ]
 
 

@@ -516,7 +516,8 @@ def size(rung: Content, content: Content) -> str:
         value, unit = shown(amplitude["value"], amplitude["unit"])
         beyond = "more" if amplitude["value"] > 0.0 else "less"
         return f"{three_digits(value)} {typed(unit)} or {beyond} (the search ends there)"
-    return estimate(amplitude, _factor(rung, content))
+    # No measurement widens what simulations show.
+    return estimate(amplitude, 1.0 if rung["cause"] == BOND_MAPPING else widened(content))
 
 
 def estimate(one: Content, factor: float = 1.0) -> str:
@@ -544,11 +545,6 @@ def estimate(one: Content, factor: float = 1.0) -> str:
         return f"{three_digits(value)} ({ends}) {typed(unit)}"
     half = shown(0.5 * (high - low), one["unit"])[0]
     return f"{written.with_interval(value, half)} {typed(unit)}".rstrip()
-
-
-def _factor(rung: Content, content: Content) -> float:
-    """On the intervals of a rung; no measurement widens what simulations show."""
-    return 1.0 if rung["cause"] == BOND_MAPPING else widened(content)
 
 
 def typed(unit: str) -> str:
