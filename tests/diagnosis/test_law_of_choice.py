@@ -53,6 +53,8 @@ def test_all_four_are_compared_and_the_one_asked_for_is_written(folder, content)
     for name in ("huet-sayegh", "sigmoid", "cam"):
         assert laws[name]["mre_phase_percent"] > laws["2s2p1d"]["mre_phase_percent"]
     assert laws["2s2p1d"]["parameters"] == 9 and laws["sigmoid"]["parameters"] == 6
+    apart = [note for note in content["notes"] if "The two laws differ" in note]
+    assert len(apart) == 1 and apart[0].endswith(" No sigmoid law fits these tests better.")
     law = an.Law.read(folder / "law.json")
     assert law.kind == "sigmoid"
     curve = pd.read_csv(folder / "master_curve.csv")

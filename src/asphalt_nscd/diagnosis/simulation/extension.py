@@ -167,11 +167,11 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
     miss = np.sqrt(np.mean(np.square(np.divide(off, diagnosis.noise.sigma))))
     if miss < FAR or not diagnosis.replicated:  # else the scatter itself is a guess
         return notes
+    better = f" No {law.title} law fits these tests better." * (not without)
     return [
         *notes,
         "law.json has constants of its own: do not mix them with those of the free master curve. The two laws differ "
-        f"by {100.0 * off[0]:.2g} % in |E*| and {np.degrees(off[1]):.1f} deg in phase."
-        f"{'' if without else ' No {law.title} law fits these tests better.'}",
+        f"by {100.0 * off[0]:.2g} % in |E*| and {np.degrees(off[1]):.1f} deg in phase.{better}",
     ]
 
 
