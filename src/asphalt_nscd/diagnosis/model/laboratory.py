@@ -1,9 +1,9 @@
-"""What every laboratory adds to its tests: temperatures within the tolerance of their control, and mountings.
+"""What every laboratory adds to its tests: temperatures within the tolerance of their control, specimens, mountings.
 
-An isotherm is held to some tenths of a kelvin, each specimen on it too, and each mounting has a level and a phase of
-its own. None of that is a fault, and without it every table holds one: of 80 drawn tables that have nothing else, 28
-were given a name. The sizes are inferred from the table by restricted likelihood, beside the discrepancy; few isotherms
-and specimens say little of them, so that each has a prior with a source.
+An isotherm is held to some tenths of a kelvin, each specimen on it too. Each specimen has relaxation times and each
+mounting a level and a phase of its own. None of that is a fault, and without it every table holds one: of 80 drawn
+tables that have nothing else, 28 were given a name. The sizes are inferred from the table by restricted likelihood,
+beside the discrepancy; few isotherms and specimens say little of them, so that each has a prior with a source.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint, Vector
 
-STEP = 0.05  # K, of the derivative along the temperature
+STEP = 0.05  # K or of ln time, of a derivative
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,9 @@ class Laboratory:
         ndarray of complex (n, q)
             Factor of the covariance of ln E*.
         """
-        own = [self.sizes[kind] * root for kind, root in _roots(joint, at, mounting).items()]
+        # A second specimen, of which a next test is, brings what a single one has not.
+        roots = _roots(joint, at, mounting).items()
+        own = [self.sizes.get(kind, LABORATORY[kind].size) * root for kind, root in roots]
         return np.hstack([_of_isotherm(joint, at), *own])
 
 
@@ -182,11 +184,26 @@ def _of_isotherm(joint: Joint, at: Fitted) -> NDArray[np.complex128]:
 def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, NDArray[np.complex128]]:
     """What one unit of each effect does to ln E*, a column for each mounting."""
     mounted = np.eye(int(mounting.max()) + 1, dtype=complex)[mounting]
-    return {
+    roots = {
         "specimen temperature": _per_kelvin(joint, at.law)[:, None] * mounted,
         "mounting, modulus": mounted,
         "mounting, phase": 1j * mounted,
     }
+    # Times of a single specimen are the law's.
+    if len(joint.observed.names) > 1:
+        specimens = np.eye(len(joint.observed.names))[joint.observed.specimen]
+        roots["specimen times"] = _per_time(joint, at.law)[:, None] * specimens
+    return roots
+
+
+def _per_time(joint: Joint, law: Vector) -> NDArray[np.complex128]:
+    """Derivative (n,) of ln E* along ln of all relaxation times."""
+    observed = joint.observed
+    low, high = (
+        joint.base.modulus(law, observed.omega * np.exp(step), observed.temperature)[0]
+        for step in (-STEP, STEP)
+    )
+    return np.asarray(np.log(high / low) / (2.0 * STEP), complex)
 
 
 def _per_kelvin(joint: Joint, law: Vector) -> NDArray[np.complex128]:
