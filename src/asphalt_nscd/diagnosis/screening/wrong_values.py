@@ -21,13 +21,8 @@ RARE = float(np.log(0.01))  # ln odds of one wrong value, and of a second one in
 WITH_IT = float(np.log(0.3))
 SURE = float(np.log(20.0))  # ln odds at which a set is taken out
 LEAST_FOR_TWO = 5  # tests of an isotherm, of which two may be wrong
-LEAST_FOR_TEN = (
-    3  # tests of a sweep, of which one may be ten times off: of two neither is known to be the wrong one
-)
-TEN, NEAR_TEN = (
-    float(np.log(10.0)),
-    0.6,
-)  # of ln|E*|; what phases tell of |E*| to first order, and broken isotherms
+TEN = float(np.log(10.0))  # of ln|E*|
+NEAR_TEN = 0.6  # of ln|E*|, by which phases tell |E*| to first order, broken isotherms too
 ASTRAY = float(np.log(3.0))  # of ln|E*|, by which the other specimens must say so too
 
 
