@@ -18,6 +18,7 @@ from asphalt_nscd.bending.bending_test import bond_law, run_test
 from asphalt_nscd.bending.case import LoadCase, Numerics
 from asphalt_nscd.bending.model import Model, read_model
 from asphalt_nscd.bending.rig import Rig
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.conversion import kelvin_chain
 
 from .causes import CATALOGUE
@@ -25,7 +26,7 @@ from .design import factorial
 from .laws import draw_law
 from .plan import INSIDE, Case
 from .records import measure
-from .sealed import at_limit, open_case
+from .sealed import REFUSED, at_limit, open_case
 from .strength import Scatter
 
 NOTHING = "nothing"
@@ -69,7 +70,13 @@ def run(effect: str, models: Sequence[Path], empty: Mapping[str, Any] | None, se
         "packing_ratio": _packing_ratios(specimens),
     }
     case = Case(seed, "nscd", tuple(e["cause"] for e in effects), RATIO, form="nscd", shape=law.shape)
-    return {"case": asdict(case), "seal": seal, "diagnosis": open_case(table, geometry)}
+    try:
+        found = open_case(table, geometry)
+    except InputError as error:  # an isotherm so far off that it is stiffer than a colder one
+        if not effects:
+            raise
+        found = REFUSED | {"notes": [str(error)]}
+    return {"case": asdict(case), "seal": seal, "diagnosis": found}
 
 
 def _packing_ratios(models: Mapping[str, Model]) -> dict[str, float]:
