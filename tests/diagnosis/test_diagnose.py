@@ -47,7 +47,7 @@ EFFECTS = {
     ("phase_offset", None): (1.2, lambda e, s, t, w: e * np.exp(1j * np.radians(1.2))),
     ("moving_mass", None): (0.35, lambda e, s, t, w: e - GAMMA * 0.35 * w**2),
     ("guide_friction", None): (2.5e8, lambda e, s, t, w: e + 2.5e8j),
-    ("loose_clamp", "b"): (2.2e-12, lambda e, s, t, w: np.where(s == 1, e / (1 + 2.2e-12 * e), e)),
+    ("loose_clamp", "b"): (3.5e-12, lambda e, s, t, w: np.where(s == 1, e / (1 + 3.5e-12 * e), e)),
     ("specimen_geometry", "c"): (-0.4, lambda e, s, t, w: np.where(s == 2, 0.6 * e, e)),
     ("temperature_bias", 15.0): (
         2.0,
