@@ -126,17 +126,25 @@ def test_no_row_of_the_verification_failed():
 
 def test_what_the_attack_finds():
     text, cases = page("trust"), published("attack/cases")
-    number = cases.table.str.extract(r"^table (\d+)$")[0].astype(float)
-    found = cases[(cases.suite == "catalogue") & (cases.ratio == 3)].assign(number=number)
-    seen, fresh = found[found.number <= 24], found[found.number > 24]
-    assert seen.named.all() and f"in them all {len(seen)} causes are named at three limits" in text
-    assert (
-        number.max() == 96 and f"in the 72 others {fresh.named.sum()} of {len(fresh)} at three limits" in text
-    )
-    others = fresh[fresh.fault != "secondary_process"]
-    assert f"of all other causes {others.named.sum()} of {len(others)}" in text
-    assert len(fresh) - len(others) == 7 and fresh.named.sum() - others.named.sum() == 3
+    found = cases[(cases.suite == "catalogue") & (cases.ratio == 3) & ~cases.measured]
+    assert f"{found.named.sum()} of {len(found)} causes are named at three limits" in text
+    both = cases[cases.suite == "pair"].groupby("table").named.agg(lambda named: named.astype(bool).all())
+    assert f"of {len(both)} pairs both in {both.sum()}." in text
+    place = cases[cases.suite == "place"].told.astype(bool)
+    assert f"is told in {place.sum()} of {len(place)} cases" in text
+    warm = cases[
+        cases.fault.str.startswith("temperature of one") & (cases.suite == "outside") & ~cases.measured
+    ]
+    assert f"mostly below its limit: {warm.told.sum()} of {len(warm)}." in text
+    sizes = published("attack/coverage").set_index("cause")
+    for cause in ("moving_mass", "loose_clamp"):
+        assert f"in {sizes.hits[cause]} of {sizes.n[cause]}" in text
     stated = published("attack/reliability").set_index("stated")
-    for group, said in (("0.95 - 0.99", "above 95 %, {}"), ("0.7 - 0.9", "at 83 % on average, {}")):
+    for group, said in (
+        ("0.95 - 0.99", "above 95 %, {}"),
+        ("0.7 - 0.9", "at 83 % on average, {}"),
+        ("0.5 - 0.7", "at 60 %, {}"),
+        ("0 - 0.5", "at 38 %, {}"),
+    ):
         row = stated.loc[group]
         assert said.format(f"{row.hits:.0f} of {row.n:.0f}") in text

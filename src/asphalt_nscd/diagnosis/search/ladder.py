@@ -95,6 +95,8 @@ class Ladder:
         Faults of one place, which have no rung.
     torn : list of float
         Isotherms that follow no one law with the others, degC.
+    smallest : list of Odd
+        Faults of one place, each at its detection limit.
     doubts : dict of tuple to list of str
         Of names, see `diagnosis.search.doubts`.
     """
@@ -112,7 +114,7 @@ class Ladder:
     estimates: dict[tuple, tuple[float, float]] = field(default_factory=dict)
     odd: list[confined.Odd] = field(default_factory=list)
     torn: list[float] = field(default_factory=list)
-    smallest: list[confined.Odd] = field(default_factory=list)  # faults of one place at their limits
+    smallest: list[confined.Odd] = field(default_factory=list)
     doubts: dict[Key, list[str]] = field(default_factory=dict)
 
     @property
