@@ -110,11 +110,8 @@ def summary(table: pd.DataFrame) -> pd.DataFrame:
         judge("tables without a cause: misnamed with confidence", "<= 5 %", bare["wrong"] > 0, high=0.05),
         judge("the same: any name, with confidence or without", "reported", bare["any_name"] > 0),
         judge("odd specimens: the odd one's size named", "reported", odd),
-        judge(
-            "power at the stated limit, where the table's own value is small", "85 - 99 %",
-            at_limit.loc[~(own > SMALL_OWN), "named"], low=0.85, high=0.99,
-        ),
-        judge("the same whatever the own value, which may undo what is put in", "reported", at_limit["named"]),
+        judge("power at the stated limit", "85 - 99 %", at_limit["named"], low=0.85, high=0.99),
+        judge("the same where the table's own value is small", "reported", at_limit.loc[~(own > SMALL_OWN), "named"]),
         judge("diagnoses that failed", "none", table["failed"], high=0.0),
     ]  # fmt: skip
     return pd.DataFrame(lines)

@@ -163,9 +163,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 "all causes at 3 times the limit: named": "all causes at 3 limits: named",
                 "false names added, any cause and ratio": "false names added",
                 "tables without a cause: misnamed with confidence": "no cause: misnamed with confidence",
-                "power at the stated limit, where the table's own value is small": (
-                    "power at the limit, own value small"
-                ),
             },
         )
     ],

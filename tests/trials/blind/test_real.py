@@ -272,17 +272,6 @@ def test_rows_of_a_real_table_hold_rates_and_nothing_of_the_table(folder, monkey
     )
 
 
-def test_power_is_judged_where_the_table_does_not_undo_what_is_put_in():
-    """An offset of -1 limit in a table that holds +0.7 is one of -0.3."""
-    put = {"kind": "real", "cause": "phase_offset", "ratio": 1.0, "established": False, "instead": False}
-    small = [put | {"named": k > 0, "own_over_limit": 0.2} for k in range(10)]
-    undone = [put | {"named": False, "own_over_limit": 0.7} for _ in range(5)]
-    told = real_tables.summary(real_tables.cases([*small, *undone])).set_index("what")
-    judged = told.loc["power at the stated limit, where the table's own value is small"]
-    assert (judged["percent"], judged["of"], judged["met"]) == (90.0, 10, "yes")
-    assert told.loc["the same whatever the own value, which may undo what is put in", "percent"] == 60.0
-
-
 def test_a_diagnosis_that_fails_is_counted_and_stops_nothing(folder, monkeypatch):
     def broken(table, geometry, removed=(), test_type="bending", use_suspects=False):
         if len(calls) > 0:
