@@ -15,9 +15,9 @@ FREQUENCIES = np.array([3.0, 10.0, 25.0, 40.0])
 TEMPERATURES = np.array([4.0, 21.0, 37.0])
 
 
-def campaign(specimens=3, isotherms=TEMPERATURES):
+def campaign(specimens=3, isotherms=TEMPERATURES, frequencies=FREQUENCIES):
     specimen, temperature, frequency = (
-        values.ravel() for values in np.meshgrid(np.arange(specimens), isotherms, FREQUENCIES, indexing="ij")
+        values.ravel() for values in np.meshgrid(np.arange(specimens), isotherms, frequencies, indexing="ij")
     )
     random = np.random.default_rng(4)
     noise = random.normal(0.0, 0.005, (2, specimen.size))
@@ -49,6 +49,25 @@ def test_of_two_halves_the_one_off_the_level_of_its_specimen_is_left_out(specime
         now, turned = contested.put_right(observed, mask(observed, accused))
         assert np.flatnonzero(now).tolist() == wrong
         assert np.flatnonzero(turned).tolist() == ([] if accused is wrong else sorted(wrong + right))
+
+
+def test_a_sound_test_beside_a_wrong_one_is_put_back_though_they_are_no_half_of_the_sweep():
+    observed = campaign(frequencies=np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0]))
+    wrong, sound = rows_of(observed, 1.0, 5.0), rows_of(observed, 10.0)
+    observed = altered(observed, wrong, 0.26, 4.0)
+    now, turned = contested.put_right(observed, mask(observed, [wrong[0], *sound]))
+    assert np.flatnonzero(now).tolist() == wrong and turned[sound].all()
+
+
+def test_of_tests_that_causality_accuses_less_distance_is_asked_than_of_others():
+    observed = campaign()
+    wrong, right = rows_of(observed, 10.0, 25.0), rows_of(observed, 3.0, 40.0)
+    usual = 0.26 / contested._from_level(altered(observed, wrong, 0.26))[wrong].mean()
+    for departures, expected in ((5.2, wrong), (3.5, right)):
+        near = altered(observed, wrong, departures * usual)
+        now, _ = contested.put_right(near, mask(near, right))
+        assert np.flatnonzero(now).tolist() == expected
+    assert not contested.masked(near, mask(near, []), mask(near, wrong)).any()
 
 
 def test_what_stays_is_not_accused_where_it_is_on_the_level_too_or_most_of_a_sweep_is_off():

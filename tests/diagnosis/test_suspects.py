@@ -237,6 +237,20 @@ def test_replicates_alone_take_no_test_out():
     assert "phase differs from 2 replicates by" in found.reasons[-1]
 
 
+def test_replicates_that_find_a_test_in_place_ask_causality_for_more(monkeypatch):
+    observed = campaign(scatter=(0.01, 0.3))
+    row = row_of(observed, 1, 21.0, 5.0)
+    others = [row_of(observed, specimen, 21.0, 5.0) for specimen in (0, 2)]
+    # just enough where the replicates say so too
+    enough = next(
+        size for size in np.linspace(0.03, 0.15, 25) if out(altered(observed, [row], size)) == [row]
+    )
+    assert row not in out(altered(altered(observed, [row], enough), others, 0.7 * enough))
+    in_place = np.full((observed.size, 2), 1e-9), np.ones((observed.size, 2))
+    monkeypatch.setattr(suspects, "_from_replicates", lambda *_: in_place)
+    assert not out(altered(observed, [row], enough)) and out(altered(observed, [row], 2.0 * enough)) == [row]
+
+
 def test_isotherms_of_three_tests_are_not_judged():
     observed = campaign()
     few = observed.subset(np.isin(observed.frequency, [0.1, 1.0, 10.0]))

@@ -14,16 +14,19 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.screening.within_isotherm import SCATTER, blocks
 
 FAR = 6.0  # usual departures of a table, beyond which a test is off the level of its specimen
+ACCUSED = 4.5  # the same in a sweep from which causality takes out tests that are clearly on the level
 NEAR = 0.5  # share of the largest departure of a sweep, below which a test is held to be on the level
-CLEARLY_NEAR = 0.35  # the same where causality takes out none: what is merely soft or slow departs smoothly
+CLEARLY_NEAR = (
+    0.35  # the same of the others where causality takes out none, and of those it takes out wrongly
+)
 LEAST_SPECIMENS = 3  # of two, neither is the odd one
 
 
 def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Which half of a sweep is wrong, by the level that the specimen has on its other isotherms.
 
-    A sweep is turned where the tests that causality takes out are half of it, or all on the level of their
-    specimen, while some others are far off it, and these are no more than half.
+    A sweep is turned where causality takes out half of it, only tests on the level of their specimen, or one that is
+    clearly on it, while some others are far off it, and these are no more than half.
 
     Parameters
     ----------
@@ -44,9 +47,12 @@ def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[n
     for one in np.unique(block[out]):
         rows = np.flatnonzero(block == one)
         distance = apart[rows]
-        off = distance > NEAR * distance.max()
-        unsure = 2 * np.count_nonzero(out[rows]) >= rows.size or not (off & out[rows]).any()
-        clear = distance.max() > FAR and 2 * np.count_nonzero(off) <= rows.size
+        largest = distance.max()
+        off = distance > NEAR * largest
+        accused = distance[out[rows]]
+        wrongly = accused.min() < CLEARLY_NEAR * largest or accused.max() <= NEAR * largest
+        unsure = wrongly or 2 * np.count_nonzero(out[rows]) >= rows.size
+        clear = largest > (ACCUSED if wrongly else FAR) and 2 * np.count_nonzero(off) <= rows.size
         if unsure and clear and (off & ~out[rows]).any():
             now[rows], turned[rows] = off, True
     return now, turned
