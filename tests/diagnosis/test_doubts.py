@@ -27,17 +27,19 @@ CAUSES = {cause.name: cause for cause in CATALOGUE}
 SCATTER = (0.01, np.radians(0.3))
 
 
-def table(effect=lambda omega, temperature: 0.0, seed: int = 3) -> Observations:
-    """Three specimens, five temperatures, six frequencies; effect: what is added to ln E* (n,)."""
+TEMPERATURES = (-10.0, 4.0, 21.0, 37.0, 54.0)
+FREQUENCIES = (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)
+
+
+def table(
+    effect=lambda omega, temperature: 0.0,
+    seed: int = 3,
+    temperatures: tuple[float, ...] = TEMPERATURES,
+    frequencies: tuple[float, ...] = FREQUENCIES,
+) -> Observations:
+    """Three specimens; effect: what is added to ln E* (n,)."""
     random = np.random.default_rng(seed)
-    grid = np.array(
-        [
-            (s, t, f)
-            for s in range(3)
-            for t in (-10.0, 4.0, 21.0, 37.0, 54.0)
-            for f in (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)
-        ]
-    )
+    grid = np.array([(s, t, f) for s in range(3) for t in temperatures for f in frequencies])
     temperature, omega = grid[:, 1], 2.0 * np.pi * grid[:, 2]
     noise = SCATTER[0] * random.standard_normal(len(grid)) + 1j * SCATTER[1] * random.standard_normal(
         len(grid)

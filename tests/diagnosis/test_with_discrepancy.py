@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from test_doubts import table as campaign
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.model import discrepancy, fit_beside, likelihood, start
@@ -13,6 +14,7 @@ from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observed import scatter
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.search import limits_beside, with_discrepancy
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 
@@ -424,3 +426,47 @@ def test_a_spring_that_the_law_has_followed_gets_its_name():
     assert one.candidate.cause.name == "guide_stiffness"
     error = fit_beside.of_taken(state, state.fitted.active[0]).std_error * 2e7
     assert abs(state.fitted.active[0].values[0] - spring) < 3.0 * error and error < 0.1 * spring
+
+
+@pytest.mark.parametrize("seed,delay", [(4, 1.6e-4), (6, -1.6e-4), (7, -1.6e-4), (8, 1.6e-4)])
+def test_a_law_that_followed_a_delay_gives_it_back(seed, delay):
+    """Of three isotherms and frequencies a rough law follows a delay: none of these had its name at one roughness."""
+    observed = campaign(
+        lambda omega, temperature: 1j * delay * omega, seed, (-5.0, 10.0, 25.0), (3.0, 10.0, 30.0)
+    )
+    ladder = diagnose(observed, draws=200).ladder
+    (rung,) = ladder.rungs
+    assert rung.candidate.cause.name == "channel_delay" and rung.probability > 0.95
+    assert (
+        abs(rung.candidate.values[0] - delay) < 3.0 * ladder.std_errors(rung.candidate)[0] < 0.8 * abs(delay)
+    )
+
+
+def test_misfits_of_laws_of_different_roughness_compare():
+    observed = campaign(frequencies=(1.0, 5.0, 25.0))
+    joint, fitted = start.fit_spectrum(observed, scatter.stated(observed, 0.01, np.radians(0.3), 0.03))
+    found = discrepancy.processes(joint, fitted)
+    none = np.full(len(found.described), discrepancy.LEAST)
+    both = []
+    for roughness in (0.1, 0.8):
+        one = Joint(observed, replace(joint.spectrum, roughness=roughness), joint.noise)
+        state = fit_beside.settle(one, found, fitted, (), none)
+        both.append((state.misfit, -2.0 * start.marginal_likelihood(state.wide, state.fitted)))
+    (smooth, as_smooth), (rough, as_rough) = both
+    assert rough - smooth > 10.0 and rough - smooth == pytest.approx(as_rough - as_smooth, abs=1.0)
+
+
+@pytest.mark.parametrize("sign,seed", [(1.0, 3), (1.0, 5), (-1.0, 4)])
+def test_an_offset_and_a_delay_that_a_discrepancy_takes_up_together_both_get_their_names(sign, seed):
+    """At a few frequencies neither gains anything alone."""
+
+    def both(omega, temperature):
+        return sign * 1j * (3e-4 * omega - np.radians(3.4))
+
+    ladder = diagnose(campaign(both, seed, (0.0, 10.0, 20.0, 30.0), (1.0, 3.0, 10.0, 30.0)), draws=200).ladder
+    found = {rung.candidate.cause.name: rung for rung in ladder.rungs}
+    assert set(found) == {"channel_delay", "phase_offset"}
+    for name, size in (("channel_delay", 3e-4), ("phase_offset", -3.4)):
+        error = ladder.std_errors(found[name].candidate)[0]
+        (value,) = [one.values[0] for one in ladder.fitted.active if one.cause.name == name]
+        assert abs(value - sign * size) < 3.0 * error < 0.5 * abs(size) and found[name].probability > 0.95

@@ -11,11 +11,12 @@ from asphalt_nscd.diagnosis.model import discrepancy, likelihood
 from asphalt_nscd.diagnosis.model.discrepancy import Processes
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate, Reduced
-from asphalt_nscd.diagnosis.model.start import first_laws, of_likeliest_roughness
+from asphalt_nscd.diagnosis.model.start import first_laws, of_likeliest_roughness, price_of_roughness
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 Vector = NDArray[np.float64]
 SETTLED = 2  # rounds of fitting law and discrepancy in turn
+SMOOTHED = 3  # the same of roughness and discrepancy, at most
 CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy ends
 
 
@@ -55,6 +56,7 @@ class State:
             + float(np.linalg.slogdet(self.fitted.precision[:law, :law])[1])
             + self.wide.noise.log_determinant
             + self.model.processes.prior(self.variances)[0]
+            + price_of_roughness(self.plain.spectrum)
         )
 
 
@@ -74,8 +76,11 @@ def begin(plain: Joint, fitted: Fitted) -> State:
         The first state.
     """
     found = discrepancy.processes(plain, fitted)
-    start = likelihood.estimate(likelihood.reduce(found, fitted)).variances
-    return smoothed(settle(plain, found, fitted, fitted.active, start))
+    likeliest_there = likelihood.estimate(likelihood.reduce(found, fitted)).variances
+    # A discrepancy takes up what a rough law does not follow, and keeps it: from either side.
+    starts = likeliest_there, np.full_like(likeliest_there, discrepancy.LEAST)
+    begun = [smoothed(settle(plain, found, fitted, fitted.active, start)) for start in starts]
+    return min(begun, key=lambda state: state.misfit)
 
 
 def with_causes(state: State, active: tuple[Candidate, ...]) -> State:
@@ -171,9 +176,14 @@ def smoothed(state: State) -> State:
     State
         Fitted anew.
     """
-    wide, fitted = of_likeliest_roughness(state.wide, state.fitted, CONVERGED)
-    plain = Joint(state.plain.observed, wide.base, state.plain.noise)
-    return settle(plain, state.model.processes, fitted, fitted.active, state.variances)
+    for _ in range(SMOOTHED):
+        before = state
+        wide, fitted = of_likeliest_roughness(state.wide, state.fitted, CONVERGED)
+        plain = Joint(state.plain.observed, wide.base, state.plain.noise)
+        state = settle(plain, state.model.processes, fitted, fitted.active, state.variances)
+        if wide.spectrum.roughness == before.wide.spectrum.roughness:
+            break
+    return state
 
 
 def afresh(state: State, active: tuple[Candidate, ...]) -> State:

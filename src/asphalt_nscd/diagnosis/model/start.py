@@ -104,11 +104,24 @@ def marginal_likelihood(joint: Joint, fitted: Fitted) -> float:
     float
         The larger, the likelier is this roughness.
     """
-    spectrum = joint.spectrum
     sign, curvature = np.linalg.slogdet(fitted.precision)
-    # The prior of m - 2 second differences pays for its own width, else the roughest would always win.
-    normaliser = -2.0 * (spectrum.times.size - 2) * np.log(spectrum.roughness)
-    return -0.5 * (fitted.objective + curvature - normaliser)
+    return -0.5 * (fitted.objective + curvature + price_of_roughness(joint.spectrum))
+
+
+def price_of_roughness(spectrum: FlexibleSpectrum) -> float:
+    """-2 ln of what the width of a law's prior costs it: else the roughest would always win.
+
+    Parameters
+    ----------
+    spectrum : FlexibleSpectrum
+        Whose m - 2 second differences have this prior.
+
+    Returns
+    -------
+    float
+        Up to what does not depend on the roughness.
+    """
+    return float(2.0 * (spectrum.times.size - 2) * np.log(spectrum.roughness))
 
 
 def fit_burgers_at_each(observed: Observations, noise: Noise) -> tuple[Joint, Fitted]:

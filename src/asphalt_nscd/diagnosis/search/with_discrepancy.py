@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import expit
 
 from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause
 from asphalt_nscd.diagnosis.criteria import (
@@ -116,12 +117,13 @@ def climb(
     taken: list[Found] = []
     surveyed = survey(state, catalogue)
     while len(taken) < MOST_CAUSES:
-        found = _next(state, surveyed, draws, random)
-        if found is None:
+        one = _next(state, surveyed, draws, random)
+        found = _both_of_the_channel(state, surveyed, draws, random) if one is None else [one]
+        if not found:
             break
-        taken.append(found)
+        taken += found
         # The roughness that a law took on for a cause is given back before the next one is sought.
-        state = smoothed(found.after)
+        state = smoothed(taken[-1].after)
         surveyed = survey(state, catalogue)
     return taken, state, surveyed
 
@@ -249,6 +251,9 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         after = settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
         if k in taken_up:
             after = min(after, afresh(state, active), key=lambda one: one.misfit)
+        if not candidates[k].shaped:
+            # A law that had followed the cause needs no such roughness beside it.
+            after = min(after, smoothed(after), key=lambda one: one.misfit)
         taken = after.fitted.active[-1]
         gain = state.misfit - after.misfit - of_shapes(after.fitted, taken, state.plain.observed)
         if gain > TWENTY_TIMES:
@@ -264,8 +269,8 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         return None
     most = max(gain for gain, _, _ in refits)
     as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
-    # Equals in gain are told apart by what is usual of them, and not by a trifle.
-    _, k, after = max(as_good, key=lambda refit: odds[refit[1]])
+    # Equals in gain are told apart by what is usual of them, and not by a trifle; one at its bound comes last.
+    _, k, after = max(as_good, key=lambda refit: (not refit[2].fitted.active[-1].at_bounds, odds[refit[1]]))
     rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
     share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
     # A name and what fits as well are told together: they share their probability.
@@ -273,6 +278,32 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         return None
     p_value = chance.tail(by_chance, float(z[k]))
     return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k])
+
+
+def _both_of_the_channel(
+    state: State, surveyed: Survey, draws: int, random: np.random.Generator
+) -> list[Found]:
+    """An offset and a delay of all tests, where a discrepancy takes up both and leaves neither alone a gain."""
+    pair = [c for c in surveyed.candidates if c.cause.stage == CHANNEL and c.place is None]
+    if len(pair) != 2 or not (state.variances > HIDES**2).any():
+        return []
+    both = smoothed(afresh(state, (*state.fitted.active, *pair)))
+    taken = both.fitted.active[-2:]
+    own = [of_taken(both, one) for one in taken]
+    errors = [one.std_error * float(candidate.typical[0]) for one, candidate in zip(own, taken, strict=True)]
+    gain, observed = state.misfit - both.misfit, state.plain.observed
+    odds = log_odds(taken[0], observed, gain, errors[0]) + log_odds(taken[1], observed, 0.0, errors[1])
+    by_chance = largest_by_chance(state, surveyed, draws, random)
+    least = max(CONFIDENCE, float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP)))
+    share = float(expit(odds))
+    if gain < 2.0 * TWENTY_TIMES or share < POSSIBLE or min(abs(one.z) for one in own) < least:
+        return []
+    first = settle(both.plain, both.model.processes, both.fitted, both.fitted.active[:-1], both.variances)
+    p_values = [chance.tail(by_chance, abs(one.z)) for one in own]
+    return [
+        Found(taken[0], p_values[0], state, first, (), share),
+        Found(taken[1], p_values[1], first, both, (), share),
+    ]
 
 
 def stands(before: State, state: State, taken: Candidate, own: Estimate) -> bool:
