@@ -274,6 +274,26 @@ def test_that_few_specimens_do_not_tell_which_is_odd_is_a_sentence_of_its_own():
     assert told[1:] == ["2 specimens are too few to tell which one is odd."] and len(told) == 2
 
 
+def test_a_highest_frequency_that_is_off_is_checked_first():
+    off = {
+        "frequency_Hz": 25.0,
+        "modulus_percent": 0.4,
+        "modulus_interval_95": [-0.6, 1.4],
+        "phase_deg": 6.0,
+        "phase_interval_95": [5.8, 6.2],
+    }
+    check = "Check that this frequency is the true one and that a cycle has enough samples, then test there again."
+    told = answer(highest_frequency=off)
+    assert told["Fault"] == ["None found beside what is to be checked first."]
+    assert told["Check first"] == [
+        f"In all tests at 25 Hz the phase is 6.00 +- 0.20 deg above what the other frequencies ask for. {check}"
+    ]
+    off |= {"modulus_percent": -8.0, "modulus_interval_95": [-9.0, -7.0], "phase_interval_95": [-0.1, 12.1]}
+    assert answer(highest_frequency=off)["Check first"] == [
+        f"In all tests at 25 Hz |E*| is 8.0 +- 1.0 % below what the other frequencies ask for. {check}"
+    ]
+
+
 def test_what_the_sizes_left_over_include_is_a_sentence_of_its_own():
     """It was once told as a size: "off by These sizes include"."""
     left = [part_left("isotherm", "phase", 3.0, temperature_C=37.0)]

@@ -110,6 +110,8 @@ def told(fault: Fault, campaign: Campaign, content: Content, answer: str) -> boo
         word in spoken for word in ("identical", "same digits", "copied")
     ):
         return True
+    if fault.kind in ("aliasing", "wrong top frequency") and "highest_frequency" in content:
+        return True
     hit = [any(_test(one, test) for one in flagged) for test in campaign.tests[rows].itertuples()]
     whole = fault.kind.startswith("exchanged") and _both_odd(fault, content)
     return whole or bool(rows.sum() < len(rows) and np.mean(hit) >= HALF)
@@ -193,7 +195,8 @@ def _of(
     if case.suite == "slip" and fault.kind != "wrong recorded temperature":
         row["removed"] = content["verdict"] == "refused" or bool(gone[fault.rows(campaign)].all())
     itself = [e for e in telling if _is(e["cause"], e.get("where"), fault)]  # not by a group
-    if itself and "measured" not in campaign.about:
+    # A filter that is told as a delay has another unit.
+    if itself and fault.kind in CATALOGUE and "measured" not in campaign.about:
         parameter = next(iter(itself[0]["parameters"].values()))
         low, high = _interval(parameter)
         # The chamber's own error at an isotherm is part of what a temperature bias is.

@@ -266,6 +266,9 @@ def conclude(
     phases, temperatures = levels.with_confined(phases, biases, own)
     odd = moduli, phases
     doubtful = levels.rows(diagnosis.observed, chain(*odd, temperatures))
+    highest = diagnosis.ladder.at_highest
+    if highest is not None:
+        doubtful |= highest.rows(diagnosis.observed)
     if np.unique(diagnosis.observed.isotherm[~doubtful]).size < diagnosis.observed.isotherms.size:
         doubtful[:] = False  # the rest makes no law
     # law.json is of all temperatures: one isotherm has no shift.
@@ -274,7 +277,8 @@ def conclude(
     if fit is not None:
         content["law_misses"] = extension.law_misses(diagnosis, fit.law, ~doubtful)
         content["laws"] = extension.compared(diagnosis, fit, ~doubtful)
-        content["notes"] += extension.law_notes(diagnosis, fit.law, levels.places(*odd))
+        at = [] if highest is None else [f"the tests at {highest.frequency:g} Hz"]
+        content["notes"] += extension.law_notes(diagnosis, fit.law, [*levels.places(*odd), *at])
         content["notes"] += extension.prior_notes(fit)
     progress("Diagnose", 3, STEPS)
     notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
@@ -314,7 +318,10 @@ def conclude(
     contradictory += [one for one in own if "offset_deg" in one and one["temperature_C"] not in told]
     content["contradictory_isotherms"] = contradictory
     to_check = [one["temperature_C"] for one in contradictory]
-    content["trust"] = trust(observed, diagnosis, levels.rows(observed, chain(*odd, temperatures)), to_check)
+    off = levels.rows(observed, chain(*odd, temperatures))
+    if highest is not None:
+        off |= highest.rows(observed)
+    content["trust"] = trust(observed, diagnosis, off, to_check)
     standard = reported.standard_values(diagnosis)
     content["reported"] = standard.iloc[0].to_dict()
     content["provenance"] = {

@@ -103,7 +103,10 @@ def test_faults_outside_the_catalogue_are_told_by_what_the_answer_lists():
     at_top = [(s, t, 25.0) for s in CAMPAIGN.specimens for t in CAMPAIGN.isotherms]
     assert row(top, "outside", suspect_tests=suspects(*at_top, used=True))["told"]
     assert not row(top, "outside", suspect_tests=suspects(*at_top[:3]))["told"]
-    assert row(Fault("low-pass filter", 200.0), "outside", ladder=[entry("channel_delay")])["told"]
+    assert row(top, "outside", highest_frequency={"frequency_Hz": 25.0})["told"]
+    assert not row(hot, "outside", highest_frequency={"frequency_Hz": 25.0})["told"]
+    late = row(Fault("low-pass filter", 200.0), "outside", ladder=[entry("channel_delay")])
+    assert late["told"] and "covered" not in late  # hertz are no seconds
     assert row(Fault("zero drift", 0.1), "outside", ladder=[entry("channel_delay")])["wrong_confident"] == 1
 
 

@@ -50,6 +50,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
     if left is not None:
         pattern = {"pattern": left.pattern, "p_value": left.p_value, "z": float(np.sqrt(left.gain))}
     modulus_scatter, phase_scatter = diagnosis.noise.sigma
+    highest = diagnosis.ladder.at_highest
     return {
         "schema_version": SCHEMA_VERSION,
         "verdict": diagnosis.verdict,
@@ -92,6 +93,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "largest_pattern_left": pattern,
         "unexplained": _unexplained(diagnosis),
         "notes": [*diagnosis.notes, *[wide] * (spread >= WIDE_SPREAD)],
+        **({} if highest is None else {"highest_frequency": highest.content(widening(spread))}),
     }
 
 

@@ -77,7 +77,7 @@ def trust(
     diagnosis : Diagnosis
         What was found.
     odd : ndarray of bool (n,)
-        Rows of odd isotherms and specimens.
+        Rows of odd isotherms and specimens, and of a highest frequency that is off.
     broken : collection of float
         Isotherms that contradict themselves, degC.
 

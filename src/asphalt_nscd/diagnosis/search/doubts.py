@@ -55,10 +55,7 @@ def find_doubts(
     found: dict[Key, list[str]] = {}
     if not named or not isinstance(plain.base, FlexibleSpectrum):
         return found
-    linear = plain.linearise(fitted.law, fitted.scales, fitted.active)
-    processes = discrepancy.processes(plain, linear)
-    variances = np.square(sizes) if len(sizes) else np.zeros(len(processes.described))
-    table = _Table(plain, linear, processes, variances)
+    table = Table(plain, fitted, sizes)
     for candidate in named:
         taken = active[candidate.key]
         own = [*_of_size(taken, plain.observed), *_of_many(candidate, named, len(plain.observed.names))]
@@ -88,12 +85,14 @@ def _of_many(candidate: Candidate, named: Sequence[Candidate], specimens: int) -
         yield f"It is named at {same} isotherms: a shift with temperature that is not of WLF's form looks the same"
 
 
-class _Table:
-    """The last fit of a table and its discrepancy."""
+class Table:
+    """The last fit of a table and its discrepancy; parameters as of `find_doubts`."""
 
-    def __init__(self, plain: Joint, linear: Fitted, processes: Processes, variances: Vector) -> None:
-        self.plain, self.linear = plain, linear
-        self.processes, self.variances = processes, variances
+    def __init__(self, plain: Joint, fitted: Fitted, sizes: Sequence[float] = ()) -> None:
+        self.plain, self.linear = plain, plain.linearise(fitted.law, fitted.scales, fitted.active)
+        self.processes = discrepancy.processes(plain, self.linear)
+        none = np.zeros(len(self.processes.described))
+        self.variances = np.square(sizes) if len(sizes) else none
 
     def without(self, candidate: Candidate) -> tuple[Fitted, NDArray, NDArray[np.complex128]]:
         """The fit with a cause taken out, its whitened direction (2n, 1), and what it does to ln E* (n,)."""
@@ -108,9 +107,7 @@ class _Table:
         effect = size * self.plain.direction(linear.law, linear.scales, linear.active, number, 0)
         return out, direction, effect
 
-    def beside(
-        self, rest: Fitted, direction: NDArray | None, roots: Sequence[NDArray], usual: float
-    ) -> Estimate:
+    def beside(self, rest: Fitted, direction: NDArray | None, roots: Sequence[NDArray]) -> Estimate:
         """The cause estimated beside its discrepancy and further processes with these factors (n, rank).
 
         direction: whitened (2n, 1), of the cause; None for the processes in its place.
@@ -123,7 +120,7 @@ class _Table:
             (*found.roots, *roots),
             factor,
             np.repeat(np.arange(len(count)), count),
-            np.array([*found.usual, *(usual for _ in roots)]),
+            np.array([*found.usual, *(1.0 for _ in roots)]),
             np.concatenate([found.spread, np.full(len(roots), np.inf)]),
         )
         model: Reduced = likelihood.reduce(every, rest)
@@ -134,21 +131,21 @@ class _Table:
         return min(tried, key=lambda one: one.misfit)
 
 
-def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
+def _beside_rivals(table: Table, candidate: Candidate) -> Iterator[str]:
     rest, direction, effect = table.without(candidate)
     if isinstance(candidate.place, float) and _followed(rest, direction):
         yield "A shift with temperature of unusual form looks the same"
-    alone = table.beside(rest, direction, (), 1.0)
+    alone = table.beside(rest, direction, ())
     observed, sigma = table.plain.observed, table.plain.noise.sigma
     smooth = [
-        table.beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root), 1.0)
+        table.beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root))
         for root in _smooth(table.plain)
     ]
     least = min(abs(one.z) for one in (alone, *smooth))
     known = [
         words
         for words, roots in _shaped(table.plain)
-        if table.beside(rest, None, roots, 1.0).misfit < alone.misfit - TWENTY_TIMES
+        if table.beside(rest, None, roots).misfit < alone.misfit - TWENTY_TIMES
     ]
     if known:
         alike = " or ".join(known)
@@ -165,7 +162,7 @@ def _beside_rivals(table: _Table, candidate: Candidate) -> Iterator[str]:
         parts = effect[:, None] * (label[:, None] == np.unique(label))
         parts = parts[:, np.abs(parts).max(axis=0) > 0.0]
         # Only where smooth rivals leave it enough: else weak evidence has been told already.
-        if parts.shape[1] > 1 and abs(table.beside(rest, direction, (parts,), 1.0).z) < ENOUGH <= least:
+        if parts.shape[1] > 1 and abs(table.beside(rest, direction, (parts,)).z) < ENOUGH <= least:
             yield f"Its size may differ between {words}"
 
 

@@ -17,8 +17,8 @@ from asphalt_nscd.diagnosis.model import chance, fit_beside
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
-from asphalt_nscd.diagnosis.search import confined, limits_beside, with_discrepancy
-from asphalt_nscd.diagnosis.search.doubts import Key, find_doubts
+from asphalt_nscd.diagnosis.search import confined, highest_frequency, limits_beside, with_discrepancy
+from asphalt_nscd.diagnosis.search.doubts import Key, Table, find_doubts
 from asphalt_nscd.diagnosis.written import widening
 
 ONE_SIGN = frozenset(cause.name for cause in CATALOGUE if cause.one_sided)
@@ -76,7 +76,7 @@ class Ladder:
     rungs : list of Rung
         Causes, in the order taken.
     withdrawn : list of Rung
-        Causes whose interval holds zero.
+        Causes whose interval holds zero, or in whose place an error of the highest frequency explains more.
     remaining : Remaining, optional
         What no cause explains.
     limits : dict of tuple to float
@@ -99,6 +99,8 @@ class Ladder:
         Faults of one place, each at its detection limit.
     doubts : dict of tuple to list of str
         Of names, see `diagnosis.search.doubts`.
+    at_highest : AtHighest, optional
+        An error of the highest frequency alone.
     """
 
     joint: Joint
@@ -116,11 +118,17 @@ class Ladder:
     torn: list[float] = field(default_factory=list)
     smallest: list[confined.Odd] = field(default_factory=list)
     doubts: dict[Key, list[str]] = field(default_factory=dict)
+    at_highest: highest_frequency.AtHighest | None = None
 
     @property
     def fitted(self) -> Fitted:
         """The fit with all causes named."""
         return self.rungs[-1].after if self.rungs else self.start
+
+    @property
+    def named(self) -> list[Candidate]:
+        """Causes, in the order taken."""
+        return [rung.candidate for rung in self.rungs]
 
     @property
     def of_one_place(self) -> list[dict[str, Any]]:
@@ -211,21 +219,29 @@ def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, s
     _take(ladder, begun, found, end)
     ladder.estimates = limits_beside.estimates(end, survey)
     # The weakest goes first and alone: without it the others may hold.
-    while (one := ladder.unsure) is not None:
+    while (one := ladder.unsure or _displaced(ladder, end)) is not None:
         ladder.withdrawn += [rung for rung in ladder.rungs if rung.candidate.key == one.key]
         found = [other for other in found if other.candidate.key != one.key]
         found, end, survey = with_discrepancy.again(begun, found, catalogue)
         _take(ladder, begun, found, end)
         ladder.estimates = limits_beside.estimates(end, survey)
-    named = [rung.candidate for rung in ladder.rungs]
-    ladder.doubts = find_doubts(end.plain, end.fitted, named, np.sqrt(end.variances).tolist())
+    sizes = np.sqrt(end.variances).tolist()
+    ladder.doubts = find_doubts(end.plain, end.fitted, ladder.named, sizes)
+    ladder.at_highest = highest_frequency.find(Table(end.plain, end.fitted, sizes))
     ladder.hangs_on = {c.key: with_discrepancy.hangs_on(end, c) for c in end.fitted.active}
     ladder.limits, ladder.unseen, ladder.alike = limits_beside.detection_limits(end, survey, draws, random)
     ladder.odd, ladder.torn, ladder.smallest = confined.find(end, survey)
-    sizes = np.sqrt(end.variances)
-    ladder.discrepancy = dict(zip(end.model.processes.described, sizes.tolist(), strict=True))
+    ladder.discrepancy = dict(zip(end.model.processes.described, sizes, strict=True))
     ladder.remaining = _remaining(end.plain, end.linear, draws, random)
     return ladder
+
+
+def _displaced(ladder: Ladder, end: fit_beside.State) -> Candidate | None:
+    """The first name in whose place an error of the highest frequency explains the tests better."""
+    table = Table(end.plain, end.fitted, np.sqrt(end.variances).tolist())
+    active = {candidate.key: candidate for candidate in end.fitted.active}
+    taken = (active[candidate.key] for candidate in ladder.named)
+    return next((one for one in taken if highest_frequency.explains_better(table, one)), None)
 
 
 def _take(

@@ -18,7 +18,7 @@ from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words import sentences, unexplained, verdict
 from asphalt_nscd.diagnosis.words.sentences import Content, cause_words, doubtful, not_used, odd
-from asphalt_nscd.diagnosis.written import UNDETERMINED
+from asphalt_nscd.diagnosis.written import UNDETERMINED, with_interval
 from asphalt_nscd.files.words import counted, joined, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 from asphalt_nscd.measurements.kinds import UNKNOWN
@@ -189,6 +189,7 @@ def _no_fault(content: Content, possible: bool, effects: bool) -> list[str]:
     """That none is certain, and how many temperatures certainty lacks; effects: whether any of the mix is certain."""
     confined = ("odd_phases", "odd_temperatures", "contradictory_isotherms")
     checks = any("probability" in one for key in confined for one in content.get(key, []))
+    checks |= "highest_frequency" in content
     beside = ["what is to be checked first"] * checks + ["the effect below"] * effects
     said = "None is certain" if possible else "None found" + f" beside {joined(beside)}" * bool(beside)
     at = len(sentences.isotherms(content))
@@ -276,7 +277,26 @@ def _check(content: Content) -> list[str]:
             )
     said += [_sentence(one) for one in levels.sentences(*odd(content))]
     said += [_sentence(one) for one in levels.of_temperatures(content.get("odd_temperatures", []))]
+    said += _at_highest(content)
     return said + _out(doubtful(content))
+
+
+def _at_highest(content: Content) -> list[str]:
+    """What all tests at the highest frequency are off by, and what to check."""
+    one = content.get("highest_frequency")
+    if one is None:
+        return []
+    parts = []
+    for name, key, unit in (("|E*|", "modulus_percent", "%"), ("the phase", "phase_deg", "deg")):
+        low, high = one[f"{key.split('_')[0]}_interval_95"]
+        side = "above" if one[key] > 0.0 else "below"
+        if low > 0.0 or high < 0.0:
+            parts.append(f"{name} is {with_interval(abs(one[key]), 0.5 * (high - low))} {unit} {side}")
+    off = f"{' and '.join(parts) or '|E*| and phase are off'} what the other frequencies ask for"
+    return [
+        f"In all tests at {one['frequency_Hz']:g} Hz {off}. Check that this frequency is the true one and that a cycle "
+        "has enough samples, then test there again."
+    ]
 
 
 def _what_clears(content: Content) -> list[str]:
@@ -376,6 +396,8 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     named = [*verdict.faults(content), *verdict.effects(content)]
     corrected = any(rung.get("taken_off", True) for rung in named)
     out = levels.places(*odd(content))
+    if "highest_frequency" in content:
+        out.append(f"the tests at {content['highest_frequency']['frequency_Hz']:g} Hz")
     doubtful = content.get("trust", {}).get("check", 0) and not out
     but = " but those left out" * bool(not_used(content))
     if corrected or out:
