@@ -59,6 +59,16 @@ def test_a_sound_test_beside_a_wrong_one_is_put_back_though_they_are_no_half_of_
     assert np.flatnonzero(now).tolist() == wrong and turned[sound].all()
 
 
+def test_of_four_a_half_is_contested_though_none_of_it_is_clearly_on_the_level():
+    observed = campaign()
+    wrong, middle = rows_of(observed, 10.0, 25.0), rows_of(observed, 40.0)
+    observed = altered(altered(observed, wrong, 0.26), middle, 0.11)
+    distance = contested._from_level(observed)
+    assert 0.38 < distance[middle[0]] / distance[wrong].max() < 0.48
+    now, _ = contested.put_right(observed, mask(observed, [wrong[0], *middle]))
+    assert np.flatnonzero(now).tolist() == wrong
+
+
 def test_of_tests_that_causality_accuses_less_distance_is_asked_than_of_others():
     observed = campaign()
     wrong, right = rows_of(observed, 10.0, 25.0), rows_of(observed, 3.0, 40.0)

@@ -16,9 +16,9 @@ from asphalt_nscd.diagnosis.screening.within_isotherm import SCATTER, blocks
 FAR = 6.0  # usual departures of a table, beyond which a test is off the level of its specimen
 ACCUSED = 4.5  # the same in a sweep from which causality takes out tests that are clearly on the level
 NEAR = 0.5  # share of the largest departure of a sweep, below which a test is held to be on the level
-CLEARLY_NEAR = (
-    0.35  # the same of the others where causality takes out none, and of those it takes out wrongly
-)
+# The same of the others where causality takes out none, and of those it takes out wrongly: what is merely soft or slow
+# departs smoothly.
+CLEARLY_NEAR = 0.35
 LEAST_SPECIMENS = 3  # of two, neither is the odd one
 
 
