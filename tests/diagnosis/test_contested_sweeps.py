@@ -72,9 +72,10 @@ def test_of_four_a_half_is_contested_though_none_of_it_is_clearly_on_the_level()
 def test_of_tests_that_causality_accuses_less_distance_is_asked_than_of_others():
     observed = campaign()
     wrong, right = rows_of(observed, 10.0, 25.0), rows_of(observed, 3.0, 40.0)
-    usual = 0.26 / contested._from_level(altered(observed, wrong, 0.26))[wrong].mean()
-    for departures, expected in ((5.2, wrong), (3.5, right)):
-        near = altered(observed, wrong, departures * usual)
+    for size, expected in ((0.045, wrong), (0.03, right)):
+        near = altered(observed, wrong, size)
+        apart = contested._from_level(near)[wrong].max()
+        assert (contested.ACCUSED < apart < contested.FAR) is (expected is wrong) and apart > 3.0
         now, _ = contested.put_right(near, mask(near, right))
         assert np.flatnonzero(now).tolist() == expected
     assert not contested.masked(near, mask(near, []), mask(near, wrong)).any()
