@@ -75,7 +75,7 @@ def test_of_tests_that_causality_accuses_less_distance_is_asked_than_of_others()
     for size, expected in ((0.045, wrong), (0.03, right)):
         near = altered(observed, wrong, size)
         apart = contested._from_level(near)[wrong].max()
-        assert (contested.ACCUSED < apart < contested.FAR) is (expected is wrong) and apart > 3.0
+        assert 3.0 < apart < contested.FAR and bool(apart > contested.ACCUSED) is (expected is wrong)
         now, _ = contested.put_right(near, mask(near, right))
         assert np.flatnonzero(now).tolist() == expected
     assert not contested.masked(near, mask(near, []), mask(near, wrong)).any()
