@@ -20,7 +20,7 @@ NAMED, POSSIBLE = 0.95, 0.5
 # and the ln odds at which half of these are right. Of 199 names in the invented tables 1001 to 1040 of `trials/attack`
 # and in new faults of the nine NCAT states, right are: established 73 of 73, without a doubt 69 of 72. Of those in
 # doubt in 96 tables of seed 20270101, 15 of 31 are right where the model gives less than 0.8, 32 of 40 up to 0.96, 22
-# of 27 up to 0.995, and 42 of 51 above, less 11 that an error of the highest frequency has displaced since.
+# of 27 up to 0.995, and 42 of 62 above, before an error of the highest frequency displaced names.
 SUREST = {True: 0.98, False: 0.96}
 DOUBTED, HALF_FROM = 0.82, 0.5
 ALPHA_PER_STEP = 0.005  # of naming anything at one rung of an empty table, over the whole catalogue
