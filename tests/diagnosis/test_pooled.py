@@ -88,9 +88,9 @@ def test_what_the_machine_does_is_no_reason_to_believe_a_campaign_less():
     assert off.judged_beside([OFFSET], amplitude).spread == 1.0
 
 
-@pytest.mark.parametrize(("seed", "size"), [(0, 4.0), (4, 16.0)])
+@pytest.mark.parametrize(("seed", "size"), [(6, 4.0), (12, 4.0)])
 def test_where_the_discrepancy_starts_does_not_change_the_evidence(seed, size):
-    """From sizes far from the likeliest, one descent ends elsewhere: in these tables with a score 0.5 and 0.7 % off."""
+    """From sizes far from the likeliest, one descent ends elsewhere: in these tables with a score 46 and 6 % off."""
     begun = pooled._begin("a", diagnosed(seed))
     state = begun.state
     astray = replace(begun, state=replace(state, variances=np.full_like(state.variances, size)))
