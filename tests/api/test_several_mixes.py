@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import product
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -12,7 +13,9 @@ import pytest
 from click.testing import CliRunner
 
 import asphalt_nscd as an
+from asphalt_nscd.api.comparison import Comparison
 from asphalt_nscd.cli.compare import command
+from asphalt_nscd.reporting.pages.comparison import write_page
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 
@@ -63,9 +66,10 @@ def test_mixes_are_ranked_with_what_the_tests_leave_open(mixes, tmp_path):
         "2-3",
     ]  # 0.4 % apart, of specimens that differ by 3 %
     assert any(line.startswith("Nothing common to the campaigns") for line in lines)
+    assert any(line.endswith("would mostly stay unseen.") for line in lines)
     assert pd.read_csv(tmp_path / "machine.csv").empty
     book = openpyxl.load_workbook(tmp_path / "comparison.xlsx")
-    assert book.sheetnames == ["Ranking", "Curves at 15 degC", "Charts"]
+    assert book.sheetnames == ["Ranking", "Curves at 15 degC", "Machine", "Charts"]
     assert len(book["Charts"]._charts[0].series) == len(GLASSY)
     header, first, *_ = book["Ranking"].iter_rows(values_only=True)
     row = dict(zip(header, first))
@@ -73,10 +77,44 @@ def test_mixes_are_ranked_with_what_the_tests_leave_open(mixes, tmp_path):
     assert row["E_low_MPa"] < true < row["E_high_MPa"] and row["rank_high"] == 1
     page = (tmp_path / "comparison.html").read_text(encoding="utf-8")
     assert "<b>" not in page and "stiff &lt;b&gt;" in page and f"{row['E_MPa']:.0f}" in page
+    assert "<h2>The machine</h2><p>Nothing common to the campaigns" in page
     svg = page[page.index("<svg") : page.index("</svg>") + 6]
     assert ElementTree.fromstring(svg).tag.endswith("svg")
     for name in GLASSY:
         assert (tmp_path / name / "diagnosis.html").is_file()
+
+
+def test_a_possible_cause_is_not_shown_as_a_certain_one(tmp_path):
+    rung = {"cause": "channel_delay", "where": None, "established": True, "probability": 0.97}
+    ladder = [
+        rung,
+        rung | {"cause": "temperature_bias", "where": 40.0, "established": False, "probability": 0.68},
+    ]
+    reported = {
+        "temperature_C": 15.0,
+        "frequency_Hz": 10.0,
+        "E_MPa": 9e3,
+        "E_low_MPa": 8e3,
+        "E_high_MPa": 1e4,
+    }
+    reported |= {"phase_deg": 20.0, "phase_low_deg": 19.0, "phase_high_deg": 21.0}
+    one = SimpleNamespace(
+        content={"ladder": ladder, "reported": reported, "tests": 24},
+        verdict="identified",
+        suspects=pd.DataFrame({"used": [True]}),
+    )
+    table = Comparison({"mix": one, "other": one}).table
+    assert table["causes"].tolist() == ["channel delay"] * 2
+    assert table["possible_causes"].tolist() == ["temperature bias at 40 degC (68 %)"] * 2
+    curve = pd.DataFrame(
+        {"mix": ["mix", "mix"], **{name: [value, 1.1 * value] for name, value in reported.items()}}
+    )
+    write_page(tmp_path / "page.html", table, curve)
+    page = (tmp_path / "page.html").read_text()
+    assert (
+        "<td>channel delay</td><td>temperature bias at 40 degC (68 %)</td>" in page
+        and "The machine" not in page
+    )
 
 
 def test_what_is_no_comparison_is_refused(mixes, tmp_path):
@@ -84,6 +122,9 @@ def test_what_is_no_comparison_is_refused(mixes, tmp_path):
         an.compare(mixes[:1])
     with pytest.raises(an.InputError, match="two mixes are called soft"):
         an.compare([mixes[0], mixes[0]])
+    (tmp_path / "copy.csv").write_text(mixes[0].read_text())
+    with pytest.raises(an.InputError, match="soft and copy hold the same 24 tests; leave one of them out"):
+        an.compare([mixes[0], mixes[1], tmp_path / "copy.csv"], measured_in="tension-compression")
     (tmp_path / "bad.csv").write_text("a,b\n1,2\n")
     with pytest.raises(an.InputError, match="mix bad: "):
         an.compare([tmp_path / "bad.csv", mixes[0]])

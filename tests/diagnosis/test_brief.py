@@ -3,7 +3,7 @@
 import pytest
 from test_sentences import content, part_left
 
-from asphalt_nscd.diagnosis.words.brief import MOST, WIDTH, rows, text
+from asphalt_nscd.diagnosis.words.brief import MOST, NOT_TAKEN_OFF, WIDTH, rows, text
 
 CHECKED = " It was fitted to all tests, doubtful ones too."
 
@@ -93,12 +93,12 @@ def test_a_certain_fault_comes_with_its_correction():
     "then,said",
     [
         ({}, [" law.json is corrected for it all the same."]),
-        ({"taken_off": False}, ["", "The master curve in law.json is not corrected for possible faults."]),
+        ({"taken_off": False}, ["", NOT_TAKEN_OFF]),
         (
             {"as_good": ["phase_offset @ B", "damage"], "taken_off": False},
             [
                 " Not certain: phase offset of specimen B fits as well.",
-                "The master curve in law.json is not corrected for possible faults.",
+                NOT_TAKEN_OFF,
             ],
         ),
     ],

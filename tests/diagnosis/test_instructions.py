@@ -455,6 +455,31 @@ def test_the_order_names_the_frequency_that_is_doubtful():
     )
 
 
+def test_a_copied_sweep_is_tested_again_because_it_is_a_copy():
+    asked = [
+        replace(one, departure=replace(one.departure, copied=True))
+        for one in (repeated(10.0), repeated(25.0))
+    ]
+    order = order_words.Order(
+        Sweep("a", 4.0, (10.0, 25.0), False, None, 1.0), ["a"], 1.0, 1.0, {0: (0.0, 1.0), 1: (0.0, 1.0)}
+    )
+    assert order_words.purpose(order, asked) == "because one of two equal sweeps is a copy"
+    assert order_words.reasons(order, asked, order_words.Context()) == [order_words.COPY]
+
+
+def test_orders_know_the_copies(delayed):
+    observed = delayed.observed
+    rows = [
+        np.flatnonzero((observed.specimen == k) & (observed.isotherm == observed.isotherms[0]))
+        for k in (0, 1)
+    ]
+    modulus = observed.modulus.copy()
+    modulus[rows[1]] = modulus[rows[0]]
+    found = diagnose(replace(observed, modulus=modulus), draws=500)
+    again = [one for one in possible(found, Costs()).departures if one.kind == "repeat"]
+    assert len(again) == 2 * rows[0].size and all(one.copied for one in again)
+
+
 def test_a_specimen_may_be_called_anything(delayed):
     """Names that look like a temperature, a frequency or a list once ended in a traceback."""
     observed = delayed.observed

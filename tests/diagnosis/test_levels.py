@@ -183,6 +183,32 @@ def test_an_odd_modulus_and_phase_that_one_temperature_explains_say_which(export
         assert not levels.odd_temperatures(other, levels.odd(other), levels.odd_phases(other))
 
 
+@pytest.mark.parametrize(
+    "kelvin,told", [((9.0, -11.0), True), ((9.0, 11.0), False), ((9.0, -3.0), False), ((-9.0, 11.0), False)]
+)
+def test_two_sweeps_that_each_look_like_the_other_are_told_exchanged(kelvin, told):
+    found = [{"specimen": "B", "temperature_C": t, "kelvin": k} for t, k in zip((15.0, 25.0), kelvin)]
+    exchanged = ["specimen B: the sweeps at 15 and 25 degC look exchanged: check the record"]
+    assert levels.of_exchanged([], found) == exchanged * told
+    assert not levels.of_exchanged([], [found[0], found[1] | {"specimen": "C"}])
+
+
+@pytest.mark.parametrize(
+    "other,told", [((25.0, 1.23), True), ((15.0, 1.23), False), ((25.0, 1.6), False), ((25.0, 0.8), False)]
+)
+def test_two_specimens_that_are_off_by_inverse_factors_are_told_exchanged(other, told):
+    found = [
+        {"specimen": name, "temperature_C": t, "factor": factor}
+        for name, (t, factor) in zip("BA", [other, (25.0, 0.82)])
+    ]
+    said = levels.of_exchanged(found, [])
+    assert len(said) == told
+    assert all(
+        one.startswith("at 25 degC specimen A is as far below its level of |E*| as specimen B is")
+        for one in said
+    )
+
+
 def test_the_law_is_free_only_of_what_the_table_does_not_speak_against(exports):
     found = diagnose(exports, draws=FEW)
     (rung,) = found.ladder.rungs

@@ -94,8 +94,8 @@ def test_archive_that_unpacks_to_much_more_is_refused_before_it_is_unpacked(tmp_
     ("content", "sentence"),
     [
         (b"", "the file is empty; export it anew"),
-        (b"# only\n", "holds no table"),
-        (b"a,b\n", "holds no table"),
+        (b"# only\n", "holds no tests"),
+        (b"a,b\n", "holds no tests; give one line of column names, and below it a line for each test"),
         (b"a,b\n\0,1\n", "not text"),
         (b'a,b\n"1,2\n', "not CSV"),
         (b"PK\x03\x04rubbish", "cannot be read as XLSX"),

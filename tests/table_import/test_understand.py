@@ -166,6 +166,11 @@ def test_ambiguous_tables_are_refused(header, row, sentence):
     assert sentence in refusal(header, row)
 
 
+@pytest.mark.parametrize("name", ["Mix 21 °C", "N°5", "Köln_3", "A & B", "d'Arc"])
+def test_a_specimen_may_be_called_as_people_call_it(name):
+    assert columns("specimen;" + LONG, f"{name};15;10;9000;20")["specimen"] == [name]
+
+
 def test_tests_that_repeat_need_specimens():
     assert "line 3: repeats the test of line 2, and no column tells specimens apart" in refusal(
         LONG, "15;10;9000;20", "15;10;9100;20"

@@ -14,8 +14,10 @@ from asphalt_nscd.api.diagnosis import Diagnosis, Known, diagnose
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE
 from asphalt_nscd.diagnosis.machine.common_faults import Pooled
 from asphalt_nscd.diagnosis.machine.pooled import pool
+from asphalt_nscd.diagnosis.observed.copies import refuse_copied_campaign
 from asphalt_nscd.diagnosis.record.reported import EN_12697_26, master_curve
 from asphalt_nscd.diagnosis.run import Draws
+from asphalt_nscd.diagnosis.words import brief, sentences
 from asphalt_nscd.files.errors import InputError
 
 DRAWS = 20_000  # of the moduli, for the ranks
@@ -69,20 +71,27 @@ class Comparison:
         Returns
         -------
         DataFrame
-            One row for each mix, the stiffest first: |E*| [MPa] and phase [degrees] with 95 % intervals,
-            verdict, causes, tests, tests left out. rank_low, rank_high: 95 % interval of the rank, from what
-            the moduli leave open.
+            One row for each mix, the stiffest first: |E*| [MPa] and phase [degrees] of the mix without any
+            cause that was found, with 95 % intervals; verdict; causes that are certain; possible ones with
+            their probability; tests, tests left out. rank_low, rank_high: 95 % interval of the rank, from
+            what the moduli leave open.
         """
         rows = []
         for name, diagnosis in self.diagnoses.items():
             content = diagnosis.content
-            named = [rung["cause"] for rung in content["ladder"] if rung["cause"] != "relaxation_spectrum"]
+            named = [rung for rung in content["ladder"] if rung["cause"] != "relaxation_spectrum"]
+            likely = [
+                f"{sentences.cause_words(rung)} ({sentences.probability(rung)})"
+                for rung in named
+                if not brief.sure(rung)
+            ]
             rows.append(
                 {
                     "mix": name,
                     **content["reported"],
                     "verdict": diagnosis.verdict,
-                    "causes": ", ".join(named),
+                    "causes": ", ".join(sentences.cause_words(rung) for rung in named if brief.sure(rung)),
+                    "possible_causes": ", ".join(likely),
                     "tests": content["tests"],
                     "left_out": int((~diagnosis.suspects["used"].astype(bool)).sum()),
                 }
@@ -158,7 +167,7 @@ def compare(
     Raises
     ------
     InputError
-        With the name of the mix, where one cannot be diagnosed.
+        With the name of the mix, where one cannot be diagnosed; of two mixes that hold the same tests.
 
     Examples
     --------
@@ -173,6 +182,8 @@ def compare(
             found[name] = diagnose(path, measured_in=measured_in, known=Known(law=law), draws=draws)
         except InputError as error:
             raise InputError(f"mix {name}: {error}") from None
+        made = {mix: one.outcome.diagnosis for mix, one in found.items()}
+        refuse_copied_campaign({mix: one.whole or one.observed for mix, one in made.items() if one})
         progress("Compare", n + 1, len(paths))
     return Comparison(found)
 

@@ -35,6 +35,7 @@ _MENDS = {
     errno.ENOENT: "check the path",
     errno.ENOTDIR: "check the path",
     errno.EISDIR: "give a file, not a folder",
+    errno.EEXIST: "give a folder, or a path where nothing is",
 }
 # Modules of the extras in pyproject.toml.
 _OF_EXTRAS = dict.fromkeys(("docutils", "rocrate", "snakemake"), "workflow")

@@ -34,23 +34,29 @@ def command(
     for name, diagnosis in made.diagnoses.items():
         diagnosis.outcome.write(output / name)
         _data.part("reporting.pages", "laboratory").write_page(output / name, f"Diagnosis of {name}")
-    book = _data.part("exports", "workbook")
-    book.write_sheets(
-        output / "comparison.xlsx",
+    sheets, names, said = (
         {"Ranking": table, "Curves at 15 degC": curves},
-        book.plots_of_mixes(curves, "Curves at 15 degC"),
+        ["comparison.html", "comparison.xlsx"],
+        "",
     )
-    _data.part("reporting.pages", "comparison").write_page(output / "comparison.html", table, curves)
+    if same_machine:
+        machine = made.same_machine(Draws(draws))
+        write_table(output / "machine.csv", machine.table)
+        sheets["Machine"], said = machine.table, str(machine)
+        names.append("machine.csv")
+    book = _data.part("exports", "workbook")
+    book.write_sheets(output / "comparison.xlsx", sheets, book.plots_of_mixes(curves, "Curves at 15 degC"))
+    _data.part("reporting.pages", "comparison").write_page(output / "comparison.html", table, curves, said)
     for row in table.itertuples():
         place = f"{row.rank_low}" if row.rank_low == row.rank_high else f"{row.rank_low}-{row.rank_high}"
         click.echo(
             f"{place:>6}  {row.mix}: |E*|(15 degC, 10 Hz) = {row.E_MPa:.0f} MPa "
-            f"({row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}); {row.causes.replace('_', ' ') or 'no cause named'}"
+            f"({row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}); {_found(row.causes, row.possible_causes)}"
         )
-    names = ["comparison.html", "comparison.xlsx"]
-    if same_machine:
-        machine = made.same_machine(Draws(draws))
-        write_table(output / "machine.csv", machine.table)
-        names.append("machine.csv")
-        click.echo(f"\n{machine}")
+    if said:
+        click.echo(f"\n{said}")
     click.echo(f"\nWritten to {output}: {', '.join(names)}, and a folder for each mix.")
+
+
+def _found(certain: str, possible: str) -> str:
+    return "; ".join(filter(None, [certain, possible and f"possible: {possible}"])) or "no cause named"

@@ -11,10 +11,26 @@ from asphalt_nscd.cli._progress import bars
 PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 
 
+def _of_several(context: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted:
+        raise click.UsageError(
+            "--same-machine needs several campaigns: asphalt-nscd compare --same-machine FILE FILE ... --output DIR",
+            context,
+        )
+
+
 @click.command()
 @click.argument("measurements", type=_options.File, nargs=-1, required=True)
 @click.option(
     "--output", required=True, type=_options.File, help="Folder for diagnosis.json and residuals.csv."
+)
+@click.option(
+    "--same-machine",
+    is_flag=True,
+    hidden=True,
+    expose_value=False,
+    callback=_of_several,
+    help="Of several campaigns: see compare.",
 )
 @click.option("--sheet", help="The only sheet of an XLSX file to read; else all that hold tests.")
 @_options.column

@@ -169,7 +169,9 @@ def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
     if not sheets and not path.read_bytes().strip():
         raise NotTests(f"{path}: the file is empty; export it anew.")
     if not sheets:
-        raise NotTests(f"{path}: holds no table; give one line of column names and a line for each test.")
+        raise NotTests(
+            f"{path}: holds no tests; give one line of column names, and below it a line for each test."
+        )
     if any(
         len(one.rows) > MOST_ROWS or max(len(cells) for _, cells in one.rows) > MOST_COLUMNS for one in sheets
     ):

@@ -9,7 +9,7 @@ import pandas as pd
 
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE
-from asphalt_nscd.diagnosis.words.sentences import an
+from asphalt_nscd.diagnosis.words.sentences import an, typed
 from asphalt_nscd.diagnosis.written import UNITS, shown, three_digits, with_interval
 from asphalt_nscd.files.words import joined
 
@@ -95,13 +95,13 @@ class Pooled:
         """What the campaigns have in common, for a reader: sentences, one a line."""
         said = [_sentence(one) for one in self.found] or ["Nothing common to the campaigns stands out."]
         rest = [
-            f"{name.replace('_', ' ')} of {three_digits(value)} {unit}"
+            f"{name.replace('_', ' ')} below {three_digits(value)} {typed(unit)}"
             for name, size in self.limits.items()
             if name not in {one.cause.name for one in self.found}
             for value, unit in [shown(size, UNITS[name])]
         ]
         if rest:
-            said.append(f"Together they would mostly show a common {joined(rest, 'or')}.")
+            said.append(f"A common {joined(rest, 'or')} would mostly stay unseen.")
         if self.left_out:
             why = "one isotherm, or no law common to its isotherms"
             said.append(f"Not used for this: {joined(self.left_out)}; {why}.")
@@ -111,7 +111,8 @@ class Pooled:
 def _sentence(one: Common) -> str:
     """A cause with its 95 % interval; or how its size differs, and that it is then not this cause alone."""
     unit = one.cause.parameters[0].unit
-    value, name = shown(one.value, unit)
+    value = shown(one.value, unit)[0]
+    name = typed(shown(one.value, unit)[1])
     half = CONFIDENCE * shown(one.std_error, unit)[0]
     size, words = f"{with_interval(value, half)} {name}", one.cause.name.replace("_", " ")
     if one.named:

@@ -20,6 +20,7 @@ from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.next_tests import sweeps
 from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Linear, Tested, parts
 from asphalt_nscd.diagnosis.next_tests.sweeps import HALF, Costs, Sweep, at_half_strain
+from asphalt_nscd.diagnosis.observed.copies import copied
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
@@ -47,6 +48,8 @@ class Departure:
         Where [Hz]; None where it is everywhere.
     odd : mapping, optional
         Of a level, the entry of `levels.odd` or `odd_phases`.
+    copied : bool
+        Whether a test cannot be used because it or another is a copy.
     """
 
     kind: str
@@ -55,6 +58,7 @@ class Departure:
     isotherm: float | None = None
     frequency: float | None = None
     odd: Mapping[str, Any] | None = None
+    copied: bool = False
 
 
 @dataclass(frozen=True)
@@ -157,6 +161,7 @@ def _repeats(
     """By how much each test that cannot be used departs from what the others say of it, at the row that repeats it."""
     whole = diagnosis.whole or diagnosis.observed
     usual = ~at_half_strain(table)
+    of_copies = {row for one in copied(whole) for row in one.rows}
     for one in [suspect for suspect in diagnosis.suspects if not suspect.used]:
         k, t, f = whole.specimen[one.row], whole.isotherm[one.row], whole.frequency[one.row]
         again = (table.specimen == k) & (table.isotherm == t) & (table.frequency == f) & usual
@@ -165,7 +170,7 @@ def _repeats(
             row = int(np.flatnonzero(again)[-1])
             effect = np.zeros(linear.effects.shape[0], complex)
             effect[row] = whole.logarithm[one.row] - expected[row]
-            yield Departure("repeat", effect, whole.names[k], float(t), float(f))
+            yield Departure("repeat", effect, whole.names[k], float(t), float(f), copied=one.row in of_copies)
 
 
 def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -108,3 +108,26 @@ def refuse_copies(observed: Observations) -> None:
                 f"specimens {one} and {other} have the same modulus at all {len(common)} conditions they share: "
                 "copies are not replicates and give no scatter; keep one of them."
             )
+
+
+def refuse_copied_campaign(campaigns: Mapping[str, Observations]) -> None:
+    """Refuse two campaigns of which one holds most tests of the other, in every digit.
+
+    Parameters
+    ----------
+    campaigns : mapping of str to Observations
+        By name.
+
+    Raises
+    ------
+    InputError
+        Which names both.
+    """
+    tests = {
+        name: set(zip(one.temperature, one.frequency, one.modulus, strict=True))
+        for name, one in campaigns.items()
+    }
+    for one, other in combinations(tests, 2):
+        common, fewest = len(tests[one] & tests[other]), min(len(tests[one]), len(tests[other]))
+        if common >= LEAST and 2 * common > fewest:
+            raise InputError(f"{one} and {other} hold the same {common} tests; leave one of them out.")

@@ -8,6 +8,7 @@ and the other specimens do.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,7 @@ NEAR = 0.08  # of ln|E*|: enough where the other levels leave no doubt
 FAR_PHASE = 2.0  # deg above which the phase of one isotherm of a specimen is odd
 FAR_SPECIMEN = 1.0  # the same for a specimen off at all isotherms; none in 549 drawn tables without one
 MOST = 3  # odd phases looked for at once; of |E*| one, since specimens that wobble by themselves would pass for two
+EXCHANGED = 0.25  # of ln|E*|, within which two departures are equal and opposite
 ALIKE = 2.0  # factor between the temperatures by |E*| and by phase, within which one error of both is told
 LEAST_FREEDOM = 2  # degrees of freedom of the levels that judge one
 ALPHA_PER_TABLE = 0.003  # share of the tables without an odd level in which the levels name one by chance
@@ -331,6 +333,41 @@ def of_temperatures(found: Iterable[Mapping[str, Any]]) -> list[str]:
         + (": check its conditioning and the record" if "interval_95" in one else OF_BOTH)
         for one in found
     ]
+
+
+def of_exchanged(levels: Sequence[Mapping[str, Any]], temperatures: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Sweeps that look as if each stood in the other's place, a sentence each without its full stop.
+
+    Parameters
+    ----------
+    levels : sequence of mapping
+        Of `odd`.
+    temperatures : sequence of mapping
+        Of `odd_temperatures`.
+
+    Returns
+    -------
+    list of str
+        Two temperatures of a specimen, then two specimens at a temperature.
+    """
+    found = []
+    for one, other in combinations(temperatures, 2):
+        apart = other["temperature_C"] - one["temperature_C"]
+        seem = (one["kelvin"] / apart, -other["kelvin"] / apart) if apart else (0.0, 0.0)
+        if one["specimen"] == other["specimen"] and all(1.0 / ALIKE < share < ALIKE for share in seem):
+            found.append(
+                f"{specimen_named(one['specimen'])}: the sweeps at {one['temperature_C']:g} and "
+                f"{other['temperature_C']:g} degC look exchanged: check the record"
+            )
+    for one, other in combinations(levels, 2):
+        inverse = abs(np.log(one["factor"] * other["factor"])) < EXCHANGED * abs(np.log(one["factor"]))
+        if one["temperature_C"] == other["temperature_C"] and inverse:
+            low, high = sorted((one, other), key=lambda of: of["factor"])
+            found.append(
+                f"at {one['temperature_C']:g} degC {specimen_named(low['specimen'])} is as far below its level of |E*| "
+                f"as {specimen_named(high['specimen'])} is above: check whether their files were exchanged"
+            )
+    return found
 
 
 def described(one: Mapping[str, Any]) -> tuple[str, str]:

@@ -30,6 +30,10 @@ MOST = 4  # sentences of a row; a reader finds the others in the reasons
 PARTS = 2  # of what stays unexplained
 FEW = 6  # specimens that are named one by one
 _wrapped = partial(wrap, width=WIDTH, break_long_words=False, break_on_hyphens=False)
+NOT_TAKEN_OFF = (
+    "law.json and corrected.csv hold the effects of possible faults; reported.csv and "
+    "master_curve.csv do not."
+)
 MORE = "{} more: see the reasons."
 TYPE_NOT_GIVEN = (
     "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. Say whether it "
@@ -230,7 +234,7 @@ def _not_taken_off(content: Content, possible: bool) -> list[str]:
     """That law.json holds what is not certain, where no such cause was taken off."""
     taken_off = any(_taken_off(rung, content) for rung in verdict.faults(content) if not sure(rung))
     told = possible and "law_misses" in content and not taken_off
-    return ["The master curve in law.json is not corrected for possible faults."] * told
+    return [NOT_TAKEN_OFF] * told
 
 
 def _if_kept(content: Content) -> list[str]:
@@ -275,8 +279,11 @@ def _check(content: Content) -> list[str]:
                 f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in "
                 f"{_where_exceeded(here, content)}. Check {limit.check}."
             )
+    warmer = content.get("odd_temperatures", [])
+    # What explains both comes before the two that it explains, of which a screen may not hold all.
+    said += [_sentence(one) for one in levels.of_exchanged(odd(content)[0], warmer)]
+    said += [_sentence(one) for one in levels.of_temperatures(warmer)]
     said += [_sentence(one) for one in levels.sentences(*odd(content))]
-    said += [_sentence(one) for one in levels.of_temperatures(content.get("odd_temperatures", []))]
     said += _at_highest(content)
     return said + _out(doubtful(content))
 

@@ -21,6 +21,7 @@ from asphalt_nscd.diagnosis.words.sentences import an, capital
 from asphalt_nscd.files.words import joined
 
 REASONS = 3
+COPY = "One of two equal sweeps is a copy of the other: use the new tests in place of the old."
 NOTICEABLE = 15.0  # percent of cases
 CLEARER = 0.3  # standard errors
 CLEAR = 2.0 * float(np.log(1000.0))  # strength from which two causes are told apart: 1000 to 1
@@ -152,8 +153,9 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
     helped = [(questions[k], *strengths) for k, strengths in order.helps.items()]
     tested = [one for one, *_ in helped if one.at(order)]
     here = f"{order.sweep.temperature:g} degC"
-    again = sorted(one.about for one in tested if one.kind == "repeat")
-    found = []
+    repeated = [one for one in tested if one.kind == "repeat"]
+    again = sorted(one.about for one in repeated if not _copied(one))
+    found = [COPY] * any(map(_copied, repeated))
     if again:
         several = len(again) > 1
         # The order itself has named them.
@@ -198,7 +200,10 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
         "to ...".
     """
     helped = [questions[k] for k in order.helps]
-    again = [one.departure.frequency for one in helped if one.kind == "repeat" and one.departure]
+    repeated = [one for one in helped if one.kind == "repeat"]
+    if any(map(_copied, repeated)):
+        return "because one of two equal sweeps is a copy"
+    again = [one.departure.frequency for one in repeated if one.departure]
     for kind, words in (
         ("repeat", f"because the old result at {_frequencies(again)} contradicts the other frequencies"),
         ("level", "to see whether the odd result repeats itself"),
@@ -220,6 +225,10 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
             other = an(one.other) if kind == "apart" else one.other
             return words.format(about=one.about.split(" (")[0], other=other, places=_places(alike))
     return ""
+
+
+def _copied(one: Open) -> bool:
+    return one.departure is not None and one.departure.copied
 
 
 def _frequencies(tested: Iterable[float | None]) -> str:

@@ -46,7 +46,7 @@ def _path(points: list[tuple[float, float]]) -> str:
     return "M" + "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
 
 
-def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame) -> None:
+def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame, machine: str = "") -> None:
     """Write the page: ranking, curves, and a link to the diagnosis of each mix beside it.
 
     Parameters
@@ -57,6 +57,8 @@ def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame) -> None:
         A row for each mix, the stiffest first, with its ranks.
     of_mixes : DataFrame
         As of `curves`.
+    machine : str
+        What one machine does to all mixes, a sentence a line, if that was asked.
     """
     first = table.iloc[0]
     lines = [
@@ -65,7 +67,8 @@ def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame) -> None:
         f"<td>{row.rank_low}{f' to {row.rank_high}' if row.rank_high > row.rank_low else ''}</td>"
         f"<td>{row.E_MPa:.0f}</td><td>{row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}</td>"
         f"<td>{row.phase_deg:.1f}</td><td>{row.phase_low_deg:.1f} to {row.phase_high_deg:.1f}</td>"
-        f"<td>{row.tests}</td><td>{row.left_out}</td><td>{escape(row.causes.replace('_', ' ')) or 'none'}</td></tr>"
+        f"<td>{row.tests}</td><td>{row.left_out}</td><td>{escape(row.causes) or 'none'}</td>"
+        f"<td>{escape(row.possible_causes) or 'none'}</td></tr>"
         for row in table.itertuples()
     ]
     names = list(of_mixes["mix"].unique())
@@ -73,15 +76,17 @@ def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame) -> None:
         f'<li><span style="--light:{light};--dark:{dark}"></span>{escape(name)}</li>'
         for name, (light, dark) in zip(names, colours(len(names)), strict=True)
     )
+    of_machine = "".join(f"<p>{escape(line)}</p>" for line in machine.splitlines())
     content = f"""<!doctype html><html lang="en"><meta charset="utf-8">
 <meta name="viewport" content="width=device-width"><title>{len(table)} mixes</title><style>{STYLE}</style>
 <h1>{len(table)} mixes</h1>
 <p class="note">Stiffest at {first.temperature_C:g} °C and {first.frequency_Hz:g} Hz: {escape(first.mix)},
 {first.E_MPa:.0f} MPa (95 % interval {first.E_low_MPa:.0f} to {first.E_high_MPa:.0f}).
-All values are of the mix, after the named corrections.
+All values are of the mix: the effects of all causes in the table are taken off, of the possible ones too.
 A rank of several places says that the tests do not tell these mixes apart.</p>
 <div class="wide"><table><tr><th>mix</th><th>rank</th><th>|E*| [MPa]</th><th>95 %</th><th>phase [°]</th><th>95 %</th>
-<th>tests</th><th>left out</th><th>corrected for</th></tr>{"".join(lines)}</table></div>
+<th>tests</th><th>left out</th><th>certain causes</th><th>possible causes</th></tr>{"".join(lines)}</table></div>
+{f"<h2>The machine</h2>{of_machine}" * bool(machine)}
 <div class="plots">{"".join(curves(of_mixes))}</div><ul class="keys">{keys}</ul></html>
 """
     with atomic_path(path) as temporary:
