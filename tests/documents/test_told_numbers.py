@@ -136,6 +136,13 @@ def test_what_the_attack_finds():
         cases.fault.str.startswith("temperature of one") & (cases.suite == "outside") & ~cases.measured
     ]
     assert f"mostly below its limit: {warm.told.sum()} of {len(warm)}." in text
+    by_fault = published("attack/by_fault").query("not measured").set_index("fault")
+    noted = by_fault.loc["wrong top frequency"]
+    assert (
+        f"told in {noted.told:.0f} of {noted.n} tables. In {noted.wrong_possible} a moving mass or a self"
+        in text
+    )
+    assert by_fault.loc["exchanged specimens"].told == 0 and "at one temperature are not told" in text
     sizes = published("attack/coverage").set_index("cause")
     assert f"in {sizes.hits['self_heating']} of {sizes.n['self_heating']} cases" in text
     often = sizes[sizes.n >= 10]
