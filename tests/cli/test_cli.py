@@ -20,6 +20,7 @@ from forks import forked
 from matplotlib.figure import Figure
 
 from asphalt_nscd import cli
+from asphalt_nscd.cli import diagnose
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save, write_table
 from asphalt_nscd.reporting.figures.save import save_figure
@@ -52,6 +53,21 @@ def test_help_imports_nothing_heavy():
         "heavy = {'numpy', 'pandas', 'scipy', 'numba', 'h5py', 'matplotlib'}; print(heavy & set(sys.modules))"
     )
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout == "set()\n"
+
+
+def test_an_output_that_is_a_file_is_refused_with_its_mend(tmp_path):
+    there = tmp_path / "there"
+    there.write_text("")
+    with pytest.raises(FileExistsError) as raised:
+        there.mkdir()
+    assert (
+        cli._file_trouble(raised.value) == f"{there}: file exists; give a folder, or a path where nothing is."
+    )
+
+
+def test_the_machine_of_one_campaign_is_looked_for_by_compare():
+    done = CliRunner().invoke(diagnose.command, ["a.csv", "--same-machine", "--output", "x"])
+    assert done.exit_code == 2 and "asphalt-nscd compare --same-machine FILE FILE" in done.output
 
 
 def test_unknown_step_is_refused():

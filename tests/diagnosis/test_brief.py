@@ -453,3 +453,19 @@ def test_a_fault_of_one_place_is_no_fault_of_all_tests_and_is_checked_first():
     assert told["Check first"][0].startswith("Specimen 3: phase 1.20 +- 0.20 deg above what its |E*| and")
     by_levels = answer(odd_phases=[{key: odd[key] for key in ("specimen", "temperature_C", "phase_deg")}])
     assert by_levels["Fault"] == ["None found."]
+
+
+def test_what_explains_several_departures_stands_before_them():
+    levels = [
+        {"specimen": "B", "temperature_C": t, "factor": factor} for t, factor in ((15.0, 0.52), (25.0, 1.78))
+    ]
+    phases = [
+        {"specimen": "B", "temperature_C": t, "phase_deg": off} for t, off in ((15.0, 6.0), (25.0, -5.0))
+    ]
+    warmer = [{"specimen": "B", "temperature_C": t, "kelvin": off} for t, off in ((15.0, 13.0), (25.0, -9.7))]
+    told = answer(odd_levels=levels, odd_phases=phases, odd_temperatures=warmer)["Check first"]
+    assert told[0] == "Specimen B: the sweeps at 15 and 25 degC look exchanged: check the record."
+    assert (
+        told[1].startswith("At 15 degC specimen B seems 13 K warmer")
+        and told[3] == "4 more: see the reasons."
+    )

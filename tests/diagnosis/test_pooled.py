@@ -63,7 +63,7 @@ def test_an_offset_that_no_campaign_shows_alone_is_named_by_five():
     assert found.limits["phase_offset"] < 0.6 * min(
         one.ladder.limits["phase_offset", None] for one in alone.values()
     )
-    assert "Machine: phase offset in all campaigns, 0." in str(found)
+    assert "Machine: phase offset in all campaigns, 0." in str(found) and " deg (95 % interval)" in str(found)
 
 
 def test_the_information_is_that_of_all_tests_in_one_model():

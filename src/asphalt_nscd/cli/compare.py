@@ -34,11 +34,9 @@ def command(
     for name, diagnosis in made.diagnoses.items():
         diagnosis.outcome.write(output / name)
         _data.part("reporting.pages", "laboratory").write_page(output / name, f"Diagnosis of {name}")
-    sheets, names, said = (
-        {"Ranking": table, "Curves at 15 degC": curves},
-        ["comparison.html", "comparison.xlsx"],
-        "",
-    )
+    sheets = {"Ranking": table, "Curves at 15 degC": curves}
+    names = ["comparison.html", "comparison.xlsx"]
+    said = ""
     if same_machine:
         machine = made.same_machine(Draws(draws))
         write_table(output / "machine.csv", machine.table)
