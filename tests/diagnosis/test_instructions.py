@@ -15,7 +15,7 @@ from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, possible
 from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Question
-from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep
+from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep, noise_of
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.record import instructions
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
@@ -422,6 +422,19 @@ def test_metal_is_ordered_at_both_ends_of_the_band_where_phases_lie_on_one_side(
     assert order["hours"] == pytest.approx(Costs().hours(METAL, 20.0, ends), abs=0.005)
     told = instructions.instructions(empty, ahead=[order])["orders"]
     assert told[0] == order and len(told) <= instructions.MOST
+
+
+def test_a_sweep_to_come_is_one_mounting(empty):
+    model = possible(empty, Costs())
+    done, noise = empty.observed.size, empty.noise
+    block = noise_of(noise, empty.observed, model.table).block
+    usual = [one for one in model.sweeps if one.specimen != METAL and not one.half_strain]
+    halved = next(one for one in model.sweeps if one.half_strain)
+    assert all(np.unique(block[one.tested.rows]).size == 1 for one in (*usual, halved))
+    whole = {block[one.tested.rows[0]] for one in usual}
+    assert len(whole) == len({(one.specimen, one.temperature) for one in usual})
+    assert block[halved.tested.rows[0]] not in whole
+    assert block[done:].min() > block[:done].max()
 
 
 def test_a_doubtful_test_waits_for_a_check_of_the_gauges():

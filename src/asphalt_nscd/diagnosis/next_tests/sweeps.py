@@ -271,7 +271,9 @@ def noise_of(noise: Noise, observed: Observations, table: Observations) -> Noise
         for t in observed.isotherms:
             wide[:, table.isotherm == t] = known[:, observed.isotherm == t].mean(axis=1, keepdims=True)
         wide[:, : observed.size] = known
-    block = np.concatenate([noise.block, noise.block.max() + 1 + np.arange(table.size - observed.size)])
+    conditions = np.column_stack([table.specimen, table.isotherm, at_half_strain(table)])[observed.size :]
+    sweep = np.unique(conditions, axis=0, return_inverse=True)[1].ravel()
+    block = np.concatenate([noise.block, noise.block.max() + 1 + sweep])
     return replace(noise, within=within, shared=shared, block=block, discrepancy=None)
 
 
