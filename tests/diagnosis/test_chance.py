@@ -107,6 +107,23 @@ def test_the_largest_of_many_is_larger_and_of_equal_ones_is_not():
     assert np.quantile(drawn, 0.95) == pytest.approx(1.96, rel=0.02)
 
 
+def test_draws_of_a_seed_do_not_hang_on_the_signs_that_rounding_gives_eigenvectors():
+    """Two pairs of scores alike: each eigenvalue is double, and any rotation of its eigenvectors is as good."""
+    alike = np.kron(np.eye(2), np.array([[1.0, 0.6], [0.6, 1.0]]))
+    rounding = 1e-12 * np.random.default_rng(0).standard_normal((4, 4))
+    drawn = [
+        chance.largest_by_chance(
+            Scores(np.zeros(4), np.ones(4), np.ones(4, bool), one),
+            np.zeros(4, bool),
+            100,
+            1000,
+            np.random.default_rng(8),
+        )
+        for one in (alike, alike + rounding + rounding.T)
+    ]
+    assert drawn[0] == pytest.approx(drawn[1], rel=1e-9)
+
+
 def test_chance_of_a_score_is_the_share_of_draws_and_beyond_them_falls_like_the_normal_tail():
     drawn = stats.halfnorm.ppf((np.arange(4000) + 0.5) / 4000)  # as even as draws can be
     assert chance.tail(drawn, 1.96) == pytest.approx(0.05, abs=2.5e-4)

@@ -123,9 +123,10 @@ def largest_by_chance(
         In absolute value, or upwards only.
     """
     value, vector = np.linalg.eigh(found.correlation)
-    # By eigenvalues, since causes that look alike leave the correlation without a Cholesky factor.
-    root = vector * np.sqrt(np.maximum(value, 0.0))
-    normal = random.standard_normal((draws, value.size)) @ root.T
+    # By eigenvalues, since causes that look alike leave the correlation without a Cholesky factor. The symmetric root:
+    # signs of eigenvectors are rounding, and with them the draws of a seed would differ between processors.
+    root = (vector * np.sqrt(np.maximum(value, 0.0))) @ vector.T
+    normal = random.standard_normal((draws, value.size)) @ root
     normal = np.where(one_sided, normal, np.abs(normal))
     student = np.sqrt(freedom / random.chisquare(freedom, draws))
     return np.maximum(normal.max(axis=1, initial=0.0), 0.0) * student
