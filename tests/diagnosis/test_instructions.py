@@ -14,7 +14,7 @@ from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, possible
-from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Question
+from asphalt_nscd.diagnosis.next_tests.information import Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep, noise_of
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.record import instructions
@@ -435,6 +435,15 @@ def test_a_sweep_to_come_is_one_mounting(empty):
     assert len(whole) == len({(one.specimen, one.temperature) for one in usual})
     assert block[halved.tested.rows[0]] not in whole
     assert block[done:].min() > block[:done].max()
+
+
+def test_of_sweeps_that_tell_the_same_the_first_is_taken_whatever_the_rounding(empty, monkeypatch):
+    model, gains = possible(empty, Costs()), Inquiry.gains
+    halved = next(one for one in model.sweeps if one.half_strain)
+    alike = replace(model, sweeps=tuple(replace(halved, specimen=name) for name in ("a", "b")))
+    monkeypatch.setattr(Inquiry, "gains", lambda *asked: gains(*asked) * np.array([[1.0], [1.0 + 1e-9]]))
+    (order, *_) = instructions.choose(alike, instructions.open_questions(empty, alike))
+    assert order.specimens[0] == "a"
 
 
 def test_a_doubtful_test_waits_for_a_check_of_the_gauges():

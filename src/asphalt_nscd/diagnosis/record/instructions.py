@@ -34,6 +34,7 @@ from asphalt_nscd.diagnosis.written import shown, three_digits, widening, with_i
 from asphalt_nscd.files.words import joined, specimen_named
 
 MOST = 5
+ALIKE = 1e-6  # relative difference of gains that is rounding
 LEAST = 0.3  # nats, below which a sweep tells nothing
 FOUND = (USUAL_THRESHOLD + Z_95) ** 2  # strength of a cause that is found in 19 of 20 cases
 KEPT = (SURVIVES + Z_95) ** 2
@@ -111,7 +112,9 @@ def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
         per_hour = np.where(totals > LEAST, totals / [sweep.hours for sweep in waiting], 0.0)
         # What makes tests doubtful comes first: all else rests on them.
         of_doubtful = gains[:, doubtful].sum(axis=1) > LEAST
-        best = int(np.argmax(np.where(of_doubtful.any() & ~of_doubtful, 0.0, per_hour)))
+        score = np.where(of_doubtful.any() & ~of_doubtful, 0.0, per_hour)
+        # Specimens of the same tests tell the same to rounding, which differs between processors: the first is taken.
+        best = int(np.argmax(score >= (1.0 - ALIKE) * score.max()))
         sweep, gain, nats = waiting.pop(best), gains[best], float(totals[best])
         alike = next((one for one in orders if _same(one.sweep, sweep)), None)
         if per_hour[best] == 0.0 or (alike is None and len(orders) == MOST):
