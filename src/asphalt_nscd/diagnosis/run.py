@@ -24,7 +24,7 @@ from asphalt_nscd.diagnosis.record import measured_limits, report, reported
 from asphalt_nscd.diagnosis.record.instructions import instructions
 from asphalt_nscd.diagnosis.record.measured_limits import Progress
 from asphalt_nscd.diagnosis.record.trust import reading, trust
-from asphalt_nscd.diagnosis.screening import levels, suspects, within_isotherm
+from asphalt_nscd.diagnosis.screening import levels, suspects
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.simulation import bond_mapping, extension, gain
 from asphalt_nscd.diagnosis.simulation.numerics import of_campaign
@@ -291,7 +291,7 @@ def conclude(
         )
         before = _begin_with_campaigns(content, diagnosis, numerical, simulated)
     content["origin"] = origin
-    loo = within_isotherm.leave_one_out(observed)
+    loo = diagnosis.left_out
     one_sided = "" if diagnosis.ladder.rungs else suspects.one_sided(observed, loo)
     content["one_sided"] = one_sided
     content["repeatability"] = repeatability.coefficients(diagnosis.observed)

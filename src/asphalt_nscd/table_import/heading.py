@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.quantities import LONGEST_NAME, Column, recognise
@@ -76,6 +77,8 @@ class Heading:
         return column is not None and column.quantity not in (*KEYS, *LABELS)
 
 
+# Each cell of a file is asked several times.
+@lru_cache(maxsize=2**14)
 def known(name: str) -> Column | None:
     """The column that a name stands for.
 

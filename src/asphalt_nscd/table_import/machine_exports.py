@@ -10,8 +10,9 @@ from pathlib import Path
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells, Row
 from asphalt_nscd.table_import.decimals import decimal_mark, like_below
+from asphalt_nscd.table_import.heading import known
 from asphalt_nscd.table_import.names import celsius, of_file, specimen_of
-from asphalt_nscd.table_import.quantities import ABSENT, Column, recognise, unit_in
+from asphalt_nscd.table_import.quantities import ABSENT, Column, unit_in
 from asphalt_nscd.table_import.targets import FAR, Header, decided, median_reading
 
 # A bare number is a frequency only where the label in front says so: `Frequency (Hz), 25, 10`.
@@ -171,7 +172,7 @@ def _frequencies(cells: list[str]) -> list[str]:
 def _frequency_name(path: Path, line: int, cells: list[str]) -> str:
     """The name of a column for the frequencies of a line, with their unit."""
     units = {match[2].casefold() for cell in cells[1:] if (match := _HERTZ.fullmatch(cell)) and match[2]}
-    named = _recognised(cells[0])
+    named = known(cells[0])
     if named is not None and named.unit:
         units.add(named.unit.casefold())
     if len(units) > 1:
@@ -180,21 +181,12 @@ def _frequency_name(path: Path, line: int, cells: list[str]) -> str:
 
 
 def _holds(label: str, quantity: str) -> bool:
-    column = _recognised(label)
+    column = known(label)
     return column is not None and column.quantity == quantity
 
 
-def _recognised(label: str) -> Column | None:
-    try:
-        return recognise(label)
-    except (
-        InputError
-    ):  # of a unit that the quantity does not have: `understand` refuses it with the file's name
-        return None
-
-
 def _names_columns(cells: list[str]) -> bool:
-    held = {column.quantity for cell in cells if (column := _recognised(cell))}
+    held = {column.quantity for cell in cells if (column := known(cell))}
     return {"frequency_Hz", "E_MPa"} <= held
 
 
@@ -215,7 +207,7 @@ def _results(path: Path, rows: list[Row], count: int) -> list[Row]:
         if not cells[0] or short or _frequencies(cells):
             break
         if len(cells) - 1 > count:
-            if _recognised(cells[0]) is None:
+            if known(cells[0]) is None:
                 break
             raise InputError(
                 f"{path}, line {line}: {len(cells) - 1} values below {count} frequencies; if decimals are written "
@@ -230,9 +222,9 @@ def _require_whole(path: Path, frequencies: list[str], taken: list[Row], rest: l
     # Something follows the results, so the file does not end within them.
     if len(rest) > 1 or (rest and len(rest[0][1]) > len(frequencies)):
         return
-    named = {column.quantity for _, cells in taken if (column := _recognised(cells[0]))}
+    named = {column.quantity for _, cells in taken if (column := known(cells[0]))}
     line, last = (taken + rest)[-1] if taken or rest else (0, [""])
-    quantity = column.quantity if (column := _recognised(last[0])) else ""
+    quantity = column.quantity if (column := known(last[0])) else ""
     missing = frequencies[len(last) - 1 :]
     longer = any(len(cells) > len(last) for _, cells in taken)
     if quantity in (*_NEEDED, "temperature_C") and missing and longer:
@@ -241,7 +233,7 @@ def _require_whole(path: Path, frequencies: list[str], taken: list[Row], rest: l
             f"{', '.join(missing)}; export it anew."
         )
     lacking = [word for name, word in _NEEDED.items() if name not in named]
-    unknown = any(_recognised(cells[0]) is None for _, cells in taken)  # which may stand for it
+    unknown = any(known(cells[0]) is None for _, cells in taken)  # which may stand for it
     if lacking and not unknown and "F0_N" not in named:
         raise InputError(
             f"{path}: the file ends early, without a row of {' and of '.join(lacking)}; export it anew."
@@ -255,7 +247,7 @@ def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], note
     # A turned row has no line of its own in the file: messages name that of the modulus.
     modulus = next((n for n, cells in rows if _holds(cells[0], "E_MPa")), line)
     turned: dict[float, Row] = {}
-    below = [(n, cell) for n, cells in rows if _recognised(cells[0]) for cell in cells[1:]]
+    below = [(n, cell) for n, cells in rows if known(cells[0]) for cell in cells[1:]]
     headings = [like_below(text, [cell for _, cell in below]) for text in _frequencies(frequencies)]
     decimal_mark(
         str(path), [*((line, text) for text in headings), *below]
@@ -297,7 +289,7 @@ def _as_block(
 ) -> Block:
     """The results with what the header says of all of them: specimen, target temperature, origin."""
     notes = [note for note in notes if not note.startswith("columns separated")]
-    columns = [_recognised(name) for name in results.header]
+    columns = [known(name) for name in results.header]
     held = {column.quantity: place for place, column in enumerate(columns) if column}
     measured = [place for name in ("E_MPa", "phase_deg") if (place := held.get(name)) is not None]
     rows = [
@@ -310,9 +302,9 @@ def _as_block(
     if len(rows) < len(results.rows):
         notes.append(f"frequencies without a modulus left out: {len(results.rows) - len(rows)}")
     reading = columns[held["temperature_C"]] if "temperature_C" in held else None
-    known = header.first(_IDENTIFICATION)
+    identified = header.first(_IDENTIFICATION)
     stem = of_file(called)
-    text = known[1] if known else stem
+    text = identified[1] if identified else stem
     reached = median_reading(rows, held.get("temperature_C"), reading.unit if reading else None)
     # The name of a file with several blocks says no more than where it begins.
     names = [text] if several else list(dict.fromkeys([text, stem]))
@@ -337,7 +329,7 @@ def _as_block(
     # A time of day without its date puts no two tests in order.
     day, time = header.first(_DATE), header.first(("test time", "time"))
     when = " ".join(said[1] for said in (day, time) if said) if day else ""
-    unnamed = known is None and name.temperature is None
+    unnamed = identified is None and name.temperature is None
     return Block(cells, repeated, when, "" if target is None else target.contested, unnamed)
 
 

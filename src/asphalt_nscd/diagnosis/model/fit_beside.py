@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -139,9 +140,6 @@ def settle(
 def likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
     """The likeliest of several answers.
 
-    Which of three specimens is odd, or a phase that is off at every frequency for a modulus that is, may be told in two
-    ways, and one start finds one of them.
-
     Parameters
     ----------
     model : Reduced
@@ -156,11 +154,34 @@ def likeliest(model: Reduced, variances: Vector, cause: Direction | None = None)
     Estimate
         Of the least misfit.
     """
+    return min(answers(model, variances, cause), key=lambda estimate: estimate.misfit)
+
+
+def answers(model: Reduced, variances: Vector, cause: Direction | None = None) -> Iterator[Estimate]:
+    """Of several starts, the quickest first.
+
+    Which of three specimens is odd, or a phase that is off at every frequency for a modulus that is, may be told in two
+    ways, and one start finds one of them.
+
+    Parameters
+    ----------
+    model : Reduced
+        Of `likelihood.reduce`.
+    variances : ndarray (m,)
+        Where to start, among other places.
+    cause : Direction, optional
+        One direction that is in the model, or none.
+
+    Yields
+    ------
+    Estimate
+        Of one start.
+    """
     uncommon = np.where(
         [one.kind == "all" for one in model.processes.described], discrepancy.LEAST, variances
     )
-    tried = [likelihood.estimate(model, cause, start) for start in (variances, None, uncommon)]
-    return min(tried, key=lambda estimate: estimate.misfit)
+    for start in (variances, uncommon, None):
+        yield likelihood.estimate(model, cause, start)
 
 
 def smoothed(state: State) -> State:

@@ -330,7 +330,8 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
     solved = dpotrs(lower, right, lower=1)[0]
     # the diagonal of U^T P U from the triangular inverse alone: the whole matrix would cost several times as
     # much
-    diagonal = (1.0 - (dtrtri(lower, lower=1)[0] ** 2).sum(axis=0)) / s**2
+    inverse = dtrtri(lower, lower=1)[0]
+    diagonal = (1.0 - np.einsum("ij,ij->j", inverse, inverse)) / s**2
     pull = solved[:, 0] / s
     misfit = 2.0 * float(np.log(np.diag(lower)).sum()) - float(data @ solved[:, 0])
     amplitude, std_error, interval = 0.0, np.inf, 0.0
@@ -356,9 +357,10 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
 
 def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:
     """Lower factor of 1 + S G S, and whether there is none: rounding, where a size is absurd."""
-    whole = s[:, None] * model.gram * s
+    # Transposed, for LAPACK wants columns: the Gram matrix is symmetric, and nothing is copied.
+    whole = (s[:, None] * model.gram * s).T
     whole[np.diag_indices(s.size)] += 1.0
-    lower, failed = dpotrf(whole, lower=1)
+    lower, failed = dpotrf(whole, lower=1, overwrite_a=1)
     return lower, bool(failed)
 
 

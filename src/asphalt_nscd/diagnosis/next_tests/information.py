@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,12 +95,16 @@ class Knowledge:
                 for values in (linear.nuisance, linear.effects)
             )
             gram, cross, own = gram + h.T @ h, cross + h.T @ d, own + d.T @ d
-        h, self._lower = parts(linear.nuisance), np.linalg.cholesky(gram)
+        self._h, self._lower = parts(linear.nuisance), np.linalg.cholesky(gram)
         followed = self.expected(cross)  # by how much x takes up each effect in these tests
         self.information = own - cross.T @ followed
-        self._left = parts(linear.effects) - h @ followed  # of each effect, what these tests do not predict
-        # (2N, q): its product with its transpose is the covariance of ln|E*| and phase that these tests leave.
-        self._spread = solve_triangular(self._lower, h.T, lower=True, check_finite=False).T
+        # Of each effect, what these tests do not predict.
+        self._left = parts(linear.effects) - self._h @ followed
+
+    @cached_property
+    def _spread(self) -> Matrix:
+        """(2N, q): its product with its transpose is the covariance of ln|E*| and phase that these tests leave."""
+        return solve_triangular(self._lower, self._h.T, lower=True, check_finite=False).T
 
     def expected(self, weighed: Matrix) -> Matrix:
         """x from the tests that Knowledge began with.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -84,12 +85,12 @@ class Observations:
         """Number n of tests."""
         return self.temperature.size
 
-    @property
+    @cached_property
     def logarithm(self) -> Complex:
         """ln E* (n,): its imaginary part is the phase [rad]."""
         return np.log(np.abs(self.modulus)) + 1j * np.angle(self.modulus)
 
-    @property
+    @cached_property
     def omega(self) -> Vector:
         """Angular frequency [rad/s]."""
         return 2.0 * np.pi * self.frequency
@@ -99,23 +100,23 @@ class Observations:
         """Nominal temperature (n,) [degC] of the isotherm each test belongs to."""
         return self.temperature if self.nominal_temperature is None else self.nominal_temperature
 
-    @property
+    @cached_property
     def isotherms(self) -> Vector:
         """Nominal temperatures tested [degC], ascending."""
         return np.unique(self.isotherm)
 
-    @property
+    @cached_property
     def held_isotherms(self) -> Vector:
         """Those of them [degC] with a few tests at least; of one test alone nothing is told from scatter."""
         values, count = np.unique(self.isotherm, return_counts=True)
         return values[count >= HELD]
 
-    @property
+    @cached_property
     def frequencies(self) -> Vector:
         """Frequencies tested [Hz], ascending."""
         return np.unique(self.frequency)
 
-    @property
+    @cached_property
     def cell(self) -> NDArray[np.int64]:
         """(n,) number of the condition (temperature, frequency, amplitude) each row repeats."""
         conditions = [self.isotherm, self.frequency]

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -104,6 +105,7 @@ class _Beside:
     linear: Fitted
     model: Reduced
 
+    @cached_property
     def nothing(self) -> Estimate:
         """Without a fault: the likelier of two answers."""
         few = np.where(self.model.processes.usual < 1.0, discrepancy.LEAST, 1.0)
@@ -208,7 +210,7 @@ def _effects(state: State) -> tuple[list[Odd], NDArray[np.complex128]]:
 
 def _judged(beside: _Beside, places: list[Odd], whitened: NDArray) -> Iterator[tuple[float, int, Odd, float]]:
     """ln odds, number, fault and amplitude of those that come near."""
-    every, nothing = likelihood.directions(beside.model, beside.linear, whitened), beside.nothing()
+    every, nothing = likelihood.directions(beside.model, beside.linear, whitened), beside.nothing
     processes = beside.model.processes
     # what a fault has enlarged: the laboratory's sizes, and the discrepancy of its place
     usual = np.minimum(nothing.variances, processes.usual**2)
@@ -237,7 +239,7 @@ def _limits(beside: _Beside, places: list[Odd], whitened: NDArray) -> list[Odd]:
     if not places:
         return []
     along = likelihood.directions(beside.model, beside.linear, whitened)
-    information, _ = likelihood.weighed(beside.model, along, beside.nothing().variances)
+    information, _ = likelihood.weighed(beside.model, along, beside.nothing.variances)
     kinds = [place.kind for place in places]
     limits = []
     for place, own in zip(places, np.diag(information), strict=True):
@@ -274,7 +276,7 @@ def _of_catalogue(state: State, surveyed: Survey) -> list[float]:
 
 def _torn(beside: _Beside, isotherms: NDArray) -> list[float]:
     """Isotherms [degC] whose own discrepancy gains too much to be chance."""
-    described, whole = beside.model.processes.described, beside.nothing()
+    described, whole = beside.model.processes.described, beside.nothing
     torn = []
     for t in isotherms:
         own = np.array([one.kind == "isotherm" and one.isotherm == t for one in described])

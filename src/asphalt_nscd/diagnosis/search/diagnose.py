@@ -21,6 +21,7 @@ from asphalt_nscd.diagnosis.observed.noise import Noise
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.screening import causality, suspects, within_isotherm
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
+from asphalt_nscd.diagnosis.screening.within_isotherm import LooPrediction
 from asphalt_nscd.diagnosis.search.doubts import Key
 from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.written import shown
@@ -46,6 +47,7 @@ class Diagnosis:
     law_p: float  # the same for the law taken, with all causes
     relaxation_spectrum: bool
     ladder: Ladder
+    left_out: LooPrediction  # each value, with those set aside, held against the rest of its isotherm
     verdict: str = ""
     notes: list[str] = field(default_factory=list)
     whole: Observations | None = None  # with the tests that are set aside
@@ -154,8 +156,8 @@ def diagnose(
     copies.refuse_copies(observed)
     notes: list[str] = []
     whole = observed
-    loo = within_isotherm.leave_one_out(whole)
-    doubtful = suspects.find(whole, loo)
+    left_out = within_isotherm.leave_one_out(whole)
+    doubtful = suspects.find(whole, left_out)
     if use_suspects:
         doubtful = [replace(one, used=True) for one in doubtful]
     aside = np.array([one.row for one in doubtful if not one.used], np.int64)
@@ -202,6 +204,7 @@ def diagnose(
         law_p,
         joint is not baseline_joint and baseline_p <= ALPHA_PER_STEP and spectrum_better,
         ladder,
+        left_out,
         notes=notes,
     )
     diagnosis.whole, diagnosis.suspects = whole, tuple(doubtful)
