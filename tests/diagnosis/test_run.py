@@ -18,6 +18,7 @@ from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observa
 from asphalt_nscd.diagnosis.record.report import physical_limits
 from asphalt_nscd.diagnosis.record.trust import reading
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
+from asphalt_nscd.diagnosis.screening.within_isotherm import leave_one_out
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.search.ladder import Ladder
 from asphalt_nscd.diagnosis.words.brief import rows
@@ -263,7 +264,11 @@ def test_the_verdict_tells_what_the_law_that_is_written_misses(tmp_path):
 def test_metal_comes_first_where_phases_lie_on_one_side(monkeypatch):
     told = "32 of 54 phases lie above."
     monkeypatch.setattr(run.suspects, "one_sided", lambda *_: told)
-    monkeypatch.setattr(run, "diagnose", lambda *_, **__: diagnose(table(4), draws=500))
+
+    def without_a_cause(observed, *_, **__):
+        return replace(diagnose(table(4), draws=500), left_out=leave_one_out(observed))
+
+    monkeypatch.setattr(run, "diagnose", without_a_cause)
     content = run.conclude(read_campaign(SOUND)[0], PAPER_GEOMETRY, draws=FEW).content
     first = content["instructions"]["orders"][0]
     assert first["specimens"] == ["a metal reference specimen"] and first["why"][0].startswith(
