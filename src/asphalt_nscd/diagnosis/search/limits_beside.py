@@ -85,7 +85,7 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
         beside = likelihood.estimate(model, pointing, one.variances).misfit
         # A name asks for both: a gain over the discrepancy, and odds over none that hold what is usual of the cause.
         present = candidate.with_values(np.array([amplitude * typical, *candidate.values[1:]]))
-        # The first answer without the cause that does as well settles it; the slowest start is seldom needed.
+        # The first answer without the cause that does as well settles it; the slowest start comes last.
         gains = (without.misfit - beside for without in answers(model, state.variances))
         if all(
             gain > TWENTY_TIMES
