@@ -37,18 +37,7 @@ PROFILE_SAMPLES = 200  # of the mean velocity against height over the last cycle
 
 
 def bond_law(law: Burgers | KelvinChain) -> BondLaw:
-    """The macroscopic law as the law of every bond (Eqs. 30-33, geometry divided out).
-
-    Parameters
-    ----------
-    law : Burgers or KelvinChain
-        Of one temperature.
-
-    Returns
-    -------
-    BondLaw
-        Moduli and viscosities per geometry of the bond.
-    """
+    """Give every bond the macroscopic law, as moduli and viscosities per geometry of the bond (Eqs. 30-33)."""
     chain = law.as_chain() if isinstance(law, Burgers) else law
     return BondLaw(
         chain.spring, chain.dashpot, np.array(chain.kelvin_springs), np.array(chain.kelvin_dashpots)
@@ -57,27 +46,12 @@ def bond_law(law: Burgers | KelvinChain) -> BondLaw:
 
 @dataclass
 class Record:
-    """What one test gives: histories and how they were obtained.
+    """What one test gives: its histories and how they were obtained.
 
-    Parameters
-    ----------
-    time : ndarray (s,)
-        From the start of the oscillation [s].
-    displacement : ndarray (s,)
-        Of the channel [m].
-    force : ndarray (s,)
-        Of the actuator [N].
-    broken : list of int
-        Bonds that broke, in order.
-    residual : float
-        Of the full equations; of "sweeps" the relative change of the last sweep; NaN where nothing is
-        checked.
-    details : dict
-        How the run went, for the file.
-    velocity : ndarray (s, l), optional
-        Means over the model's layers [m/s].
-    frames : sequence of runs.Frame
-        At the times of `Numerics.framed`.
+    `time` (s,) in s from the start of the oscillation; `displacement` (s,) of the channel in m; `force` (s,) of the
+    actuator in N; `velocity` (s, l) in m/s, means over the layers; `broken` in the order of breaking; `frames` at the
+    times of `Numerics.framed`. `residual` is that of the full equations, of "sweeps" the relative change of the last
+    sweep, and NaN where nothing is checked.
     """
 
     time: np.ndarray
@@ -97,34 +71,10 @@ def run_test(
     numerics: Numerics = Numerics(),
     options: RunOptions = RunOptions(),
 ) -> Record:
-    """Gravity for the steps at rest, then the load case at the actuator.
+    """Apply gravity for the steps at rest, then the load case at the actuator; the record begins with the load case.
 
-    The actuator is the head itself but for the rig; the record is that of the rig's channel.
-
-    Parameters
-    ----------
-    model : Model or ModelExcerpt
-        Condensed specimen.
-    law : BondLaw
-        Of the bonds.
-    case : LoadCase
-        What the actuator does.
-    numerics : Numerics
-        How it is computed.
-    options : RunOptions
-        What is told and kept.
-
-    Returns
-    -------
-    Record
-        Histories while the head moves.
-
-    Raises
-    ------
-    InputError
-        Where the method cannot do this.
-    ArithmeticError
-        Where the motion cannot be followed, as of a specimen in two pieces.
+    The actuator is the head itself but for the rig; the record is that of the rig's channel. Raises ArithmeticError
+    where the motion cannot be followed, as of a specimen in two pieces.
     """
     require_possible(case, numerics, options)
     if case.by_force:
@@ -167,26 +117,7 @@ def _steady_force(model: Model, law: BondLaw, case: LoadCase, times: np.ndarray)
 
 
 def read_subject(model_file: str | Path, excerpt_file: str | Path | None = None) -> Model | ModelExcerpt:
-    """What to test: a model made by `condense`, or its excerpt, which reads the model only where a test needs
-    it.
-
-    Parameters
-    ----------
-    model_file : path
-        HDF5 file of the model.
-    excerpt_file : path, optional
-        HDF5 file of its excerpt, if there is one.
-
-    Returns
-    -------
-    Model or ModelExcerpt
-        Condensed specimen.
-
-    Raises
-    ------
-    InputError
-        Where a file is missing, or the excerpt belongs to another model.
-    """
+    """Read the model made by `condense`, or its excerpt, which reads the model only where a test needs it."""
     if excerpt_file is not None:
         return read_excerpt(excerpt_file, model_file)
     from asphalt_nscd.bending.model import read_model
@@ -196,24 +127,10 @@ def read_subject(model_file: str | Path, excerpt_file: str | Path | None = None)
 
 @dataclass(frozen=True)
 class TestFiles:
-    """What a test reads and writes.
+    """Files that a test reads and writes.
 
-    Parameters
-    ----------
-    model : path
-        HDF5 file made by `condense`.
-    law : path
-        Of the bonds, JSON.
-    output : path
-        HDF5 file to write.
-    rig : path, optional
-        JSON file of a rig, if it is not ideal.
-    checkpoint : path, optional
-        Where the run is kept, if at all.
-    checkpoint_every : int
-        How many steps.
-    law_source : str
-        Kept with the result.
+    `model`, `output`, `checkpoint` are HDF5 files; `law` (of the bonds) and `rig` are JSON; without `rig` the rig is
+    ideal. `checkpoint_every` counts steps; `law_source` is kept with the result.
     """
 
     __test__ = False  # not one of pytest's
@@ -227,20 +144,7 @@ class TestFiles:
     law_source: str = ""
 
     def checkpoint_of(self, case: LoadCase, numerics: Numerics) -> Checkpoint | None:
-        """Where this run is kept; it names all that makes it this run.
-
-        Parameters
-        ----------
-        case : LoadCase
-            What the actuator does.
-        numerics : Numerics
-            How it is computed.
-
-        Returns
-        -------
-        Checkpoint or None
-            None without a file for it.
-        """
+        """Checkpoint that names all that makes it this run; None without a file for it."""
         if self.checkpoint is None:
             return None
         run: dict[str, float | int | str] = {
@@ -267,32 +171,10 @@ def simulate(
     options: RunOptions = RunOptions(),
     model: Model | ModelExcerpt | None = None,
 ) -> dict[str, Any]:
-    """One test from files to a file: |E*| and phase by harmonic fit and by the paper's peak picking.
+    """Run one test from files to a file: |E*| and phase by harmonic fit and by the paper's peak picking.
 
-    Parameters
-    ----------
-    files : TestFiles
-        With the rig and the checkpoint.
-    temperature : float
-        Of the law [degC], kept with the result.
-    case : LoadCase
-        What the actuator does.
-    numerics : Numerics
-        How it is computed.
-    options : RunOptions
-        What is told and kept.
-    model : Model or ModelExcerpt, optional
-        What `files.model` holds, or its excerpt, where that has been read already.
-
-    Returns
-    -------
-    dict
-        What `collect` says of the test.
-
-    Raises
-    ------
-    InputError
-        Where the test cannot be run so, or the specimen breaks in two.
+    `temperature` of the law in degC; `model` is what `files.model` holds, or its excerpt, where that has been read
+    already.
     """
     law = read_bond_law(files.law, temperature, [case.frequency])
     case = replace(case, rig=Rig() if files.rig is None else read_rig(files.rig))
@@ -310,18 +192,7 @@ def simulate(
 
 
 def told(columns: Mapping[str, Any]) -> str:
-    """A test in one line.
-
-    Parameters
-    ----------
-    columns : mapping
-        Attributes of a test.
-
-    Returns
-    -------
-    str
-        |E*|, phase and bonds that broke.
-    """
+    """Say in one line |E*|, the phase and the number of bonds that broke in a test."""
     words = (
         f"{columns['temperature_C']:g} degC, {columns['frequency_Hz']:g} Hz: |E*| = {columns['E_MPa']:.4g} MPa, "
         f"phase {columns['phase_deg']:.2f} deg; law {columns['E_law_MPa']:.4g} MPa, "
@@ -333,18 +204,7 @@ def told(columns: Mapping[str, Any]) -> str:
 
 
 def damage(columns: Mapping[str, Any]) -> str:
-    """What to make of a test that broke bonds.
-
-    Parameters
-    ----------
-    columns : mapping
-        Attributes of a test.
-
-    Returns
-    -------
-    str
-        One sentence.
-    """
+    """Say in one sentence what to make of a test that broke bonds."""
     return (
         f"{columns['broken_bonds']} of {counted(columns['bonds'], 'bond')} broke at an amplitude of "
         f"{1e6 * columns['amplitude_m']:.3g} um: E* is that of a damaged specimen; lower the amplitude, or raise the "
@@ -360,35 +220,7 @@ def outcome(
     numerics: Numerics = Numerics(),
     options: RunOptions = RunOptions(),
 ) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """One test in memory; see `simulate`.
-
-    Parameters
-    ----------
-    model : Model or ModelExcerpt
-        Condensed specimen.
-    law : Burgers or KelvinChain
-        Of one temperature.
-    temperature : float
-        Of the law [degC], kept with the result.
-    case : LoadCase
-        What the actuator does.
-    numerics : Numerics
-        How it is computed.
-    options : RunOptions
-        What is told and kept.
-
-    Returns
-    -------
-    dict of str to ndarray
-        Arrays of the file of the test.
-    dict
-        Its attributes.
-
-    Raises
-    ------
-    InputError
-        For less than one cycle, or where the specimen breaks in two.
-    """
+    """Run one test in memory (see `simulate`): arrays and attributes of its file; `temperature` in degC."""
     cycles, time_step, frequency = case.cycles, numerics.time_step, case.frequency
     if cycles < 1.0:
         raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")

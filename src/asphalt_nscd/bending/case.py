@@ -29,18 +29,8 @@ MOST_STEPS = 5_000_000  # of a test, which keeps some 200 bytes of each
 class LoadCase:
     """The actuator follows A sin(2 pi f t) from t = 0; the rig stands between it, the head and the record.
 
-    Parameters
-    ----------
-    frequency : float
-        f of the actuator [Hz].
-    amplitude : float
-        A of the actuator [m]; of its force [N] where `by_force`.
-    cycles : float
-        How many; the last two give E*.
-    rig : Rig
-        Devices at the head, and errors of the measuring channel.
-    by_force : bool
-        Whether the actuator commands the force; its displacement is then measured.
+    `frequency` f in Hz; `amplitude` A in m, or in N where `by_force`: the force is then commanded and the displacement
+    measured. The last two of `cycles` give E*. `rig` holds the devices at the head and the errors of the channel.
     """
 
     frequency: float
@@ -51,43 +41,15 @@ class LoadCase:
 
     @property
     def omega(self) -> float:
-        """Angular frequency.
-
-        Returns
-        -------
-        float
-            2 pi f [rad/s].
-        """
+        """Angular frequency 2 pi f [rad/s]."""
         return 2.0 * np.pi * self.frequency
 
     def actuator(self, time: Vector) -> Vector:
-        """What the actuator does.
-
-        Parameters
-        ----------
-        time : ndarray (s,)
-            Times [s].
-
-        Returns
-        -------
-        ndarray (s,)
-            Displacement z of the actuator [m].
-        """
+        """Displacement z (s,) of the actuator at the times (s,) in s [m]."""
         return self.amplitude * np.sin(self.omega * time)
 
     def recorded(self, time: Vector) -> Vector:
-        """What the measuring channel records of the actuator: late by its delay and its phase offset.
-
-        Parameters
-        ----------
-        time : ndarray (s,)
-            Times [s].
-
-        Returns
-        -------
-        ndarray (s,)
-            Displacement [m].
-        """
+        """Displacement (s,) that the channel records, late by its delay and its phase offset; `time` (s,) in s [m]."""
         angle = self.omega * (time - self.rig.channel_delay) - self.rig.phase_offset
         # at rest until the motion arrives at the channel
         return np.where(angle > 0.0, self.amplitude * np.sin(angle), 0.0)
@@ -218,21 +180,10 @@ class Numerics(Ranged):
 class RunOptions:
     """What a run tells and keeps.
 
-    Parameters
-    ----------
-    progress : callable
-        Called with (steps done, steps in all).
-    energy : bool
-        Keep the energy account of a reduced run too; it then makes its steps one by one.
-    checkpoint : Checkpoint, optional
-        Where the run is kept, and from where it goes on; for "reduced" and "condensed".
-    frames : int
-        How many instants of the last cycle to keep with the motion of all spheres and the force of all bonds;
-        the run then makes its steps one by one.
-    most_broken : float
-        Share of the bonds that may break before the run ends in a sentence.
-    most_closed : float
-        Share of the gaps that may be closed at once before it does.
+    `progress` is called with (steps done, steps in all); `most_broken` and `most_closed` are the shares of bonds broken
+    and of gaps closed at once beyond which the run ends with a message. `energy` keeps the energy account of a reduced
+    run too; `frames` instants of the last cycle are kept with all spheres and bonds. Either makes the steps one by one.
+    A `checkpoint`, from which a run goes on, is for "reduced" and "condensed".
     """
 
     progress: Progress = lambda done, total: None
@@ -306,22 +257,7 @@ class Load(Ranged):
 
 
 def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) -> None:
-    """Refuse what a method cannot do.
-
-    Parameters
-    ----------
-    case : LoadCase
-        What the actuator does.
-    numerics : Numerics
-        Method, scheme and step.
-    options : RunOptions
-        What is to be kept.
-
-    Raises
-    ------
-    InputError
-        For too many steps, or a method without the rig, scheme, checkpoint or frames that are asked for.
-    """
+    """Refuse too many steps, and a rig, scheme, checkpoint or frames that the method cannot do."""
     method, scheme, count = numerics.method, numerics.scheme, numerics.steps(case) + numerics.rest_steps
     if count > MOST_STEPS:
         raise InputError(

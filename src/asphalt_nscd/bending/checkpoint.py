@@ -16,35 +16,14 @@ _TRANSPOSED = "transposed"  # arrays stored so: linear algebra adds in another o
 
 @dataclass(frozen=True)
 class Checkpoint:
-    """Where and how often a run is kept.
-
-    Parameters
-    ----------
-    path : path
-        HDF5 file.
-    every : int
-        Steps between two checkpoints.
-    run : dict
-        Says which run it is; another one is refused.
-    """
+    """Where and how often a run is kept: `every` in steps; `run` says which run it is, and another one is refused."""
 
     path: Path
     every: int
     run: dict[str, float | int | str]
 
     def resume(self) -> dict[str, np.ndarray] | None:
-        """What was kept last.
-
-        Returns
-        -------
-        dict of str to ndarray, or None
-            By name; None before the first time.
-
-        Raises
-        ------
-        InputError
-            Where the file belongs to another run.
-        """
+        """Arrays that were kept last, by name; None before the first time; another run's file is refused."""
         if not self.path.exists():
             return None
         record = load(self.path, "checkpoint")
@@ -58,30 +37,11 @@ class Checkpoint:
         return {name: value.T if name in transposed else value for name, value in record.arrays.items()}
 
     def is_due(self, done: int, steps: int) -> bool:
-        """Whether the run is to be kept now.
-
-        Parameters
-        ----------
-        done : int
-            Steps made.
-        steps : int
-            Steps in all.
-
-        Returns
-        -------
-        bool
-            True after each `every` steps but the last.
-        """
+        """Whether the run is to be kept now: after each `every` steps but the last."""
         return done % self.every == 0 and done < steps
 
     def keep(self, arrays: dict[str, np.ndarray]) -> None:
-        """Replace what was kept before; a run killed meanwhile leaves that.
-
-        Parameters
-        ----------
-        arrays : dict of str to ndarray
-            By name.
-        """
+        """Replace what was kept before; a run killed meanwhile leaves that."""
         transposed = [name for name, value in arrays.items() if not value.flags.c_contiguous]
         stored = {name: value.T if name in transposed else value for name, value in arrays.items()}
         save(self.path, "checkpoint", stored, self.run | {_TRANSPOSED: ",".join(transposed)})
@@ -92,17 +52,6 @@ class Checkpoint:
 
 
 def digest(path: str | Path) -> str:
-    """What names a file in `run`.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    str
-        SHA-256, hexadecimal.
-    """
+    """SHA-256 of a file, hexadecimal, which names it in `run`."""
     with Path(path).open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()

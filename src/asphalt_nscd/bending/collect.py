@@ -31,25 +31,9 @@ SCALED = ["parameter", "factor"]
 
 
 def collect(tests: Iterable[str | Path]) -> pd.DataFrame:
-    """Test files as one table.
+    """Tabulate test files, one row each in the order given: COLUMNS first, then whatever else they hold.
 
-    Parameters
-    ----------
-    tests : iterable of path
-        HDF5 files of tests.
-
-    Returns
-    -------
-    DataFrame
-        One row for each, in the order given: COLUMNS first, then whatever else they hold. A law source like
-        "Em:0.5" (one parameter scaled, see `sensitivity`) gives two more columns.
-
-    Raises
-    ------
-    InputError
-        For no files.
-    DamagedFile
-        Where one lacks a column.
+    A law source like "Em:0.5" (one parameter scaled, see `sensitivity`) gives two more columns.
     """
     rows = []
     for path in tests:

@@ -61,28 +61,7 @@ def condense(
     excerpt_output: str | Path | None = None,
     stand_by: int | None = None,
 ) -> tuple[int, float]:
-    """Assemble the system of a specimen, find its basis and directions for breaks, and save all.
-
-    Parameters
-    ----------
-    specimen_file : path
-        HDF5 file of a specimen.
-    bonds : Bonds
-        Poisson's ratio, strength and friction of bonds, and how the head is held.
-    output : path
-        HDF5 file of the model to write.
-    excerpt_output : path, optional
-        Another one for what most tests need of it, if wanted.
-    stand_by : int, optional
-        See `condensed`.
-
-    Returns
-    -------
-    int
-        Number of unknowns.
-    float
-        Static |E*| over the modulus of the bonds.
-    """
+    """Condense a specimen to a model file; returns the number of unknowns and static |E*| over the bonds' modulus."""
     specimen = read_specimen(specimen_file)
     arrays, attributes = condensed(specimen, Path(specimen_file).stem, bonds, stand_by)
     digest = save(output, "model", arrays, attributes)
@@ -95,25 +74,11 @@ def condense(
 
 
 def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None = None) -> Content:
-    """A specimen as the content of a model file.
+    """Arrays and attributes of the model file of a specimen.
 
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-    name : str
-        Kept with it.
-    bonds : Bonds
-        Poisson's ratio, strength and friction of bonds, and how the head is held.
-    stand_by : int, optional
-        So many bonds have directions ready for their break, those the driven motion breaks first. A test that
-        breaks others finds theirs itself, for seconds. None: BONDS, but none of facets, which bear stress so
-        evenly that they seldom break.
-
-    Returns
-    -------
-    tuple of dict
-        Arrays and attributes.
+    `stand_by` bonds have directions ready for their break, those the driven motion breaks first; a test that breaks
+    others finds theirs itself, for seconds. None: BONDS, but none of facets, which bear stress so evenly that they
+    seldom break.
     """
     system = bending_system(
         specimen, bonds.poisson, bonds.yield_Pa, bonds.friction, bonds.head, kt_over_kn=bonds.kt_over_kn

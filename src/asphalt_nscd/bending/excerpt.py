@@ -26,26 +26,10 @@ REDUCED = "reduced/"
 
 @dataclass(frozen=True)
 class ModelExcerpt:
-    """Stands for a `Model` in a test by its reduced form; reads the model where it must.
+    """Stands for a `Model` in a test by its reduced form, and reads the model by `read_whole` where it must.
 
-    Parameters
-    ----------
-    reduced_form : tuple
-        Excerpt of the reduced model; no directions for breaks.
-    along : ndarray (k, l)
-        Coordinates of velocity to means over the layers.
-    layers : LayerHeights
-        Over which velocities are averaged.
-    geometry : Shape
-        Of the specimen.
-    name : str
-        Of the specimen.
-    head : str
-        "free" or "blocked".
-    spheres, bonds : int
-        How many.
-    read_whole : callable
-        Reads the model.
+    `along` (k, l) turns coordinates of velocity into means over the layers; `reduced_form` holds no directions for
+    breaks; `head` is "free" or "blocked"; `name` is that of the specimen.
     """
 
     reduced_form: tuple[Excerpt, None]
@@ -65,17 +49,7 @@ class ModelExcerpt:
 
 
 def write_excerpt(path: str | Path, model: Model, digest: str) -> None:
-    """Write what most tests need of a model.
-
-    Parameters
-    ----------
-    path : path
-        HDF5 file to write.
-    model : Model
-        Whole.
-    digest : str
-        That of the file with the whole model.
-    """
+    """Write what most tests need of a model as HDF5; `digest` is that of the file with the whole model."""
     reduced, _ = model.reduced_form
     excerpt = Excerpt.of(reduced, lambda: model.reduced_form)
     arrays = {
@@ -97,25 +71,7 @@ def write_excerpt(path: str | Path, model: Model, digest: str) -> None:
 
 
 def read_excerpt(path: str | Path, model_file: str | Path) -> ModelExcerpt:
-    """Read an excerpt made by `condense`.
-
-    Parameters
-    ----------
-    path : path
-        HDF5 file of the excerpt.
-    model_file : path
-        HDF5 file of the whole model, which is read only if a test needs it.
-
-    Returns
-    -------
-    ModelExcerpt
-        Stands for the model.
-
-    Raises
-    ------
-    InputError
-        Where it belongs to another model.
-    """
+    """Read an excerpt made by `condense`; the whole model is read only if a test needs it."""
     arrays, attributes = (record := load(path, KIND)).arrays, record.attributes
 
     @cache

@@ -24,23 +24,10 @@ MOST_STEPS = 1_000_000  # of some milliseconds each
 class Fall(Ranged):
     """How a specimen falls, and how that is computed.
 
-    Parameters
-    ----------
-    height : float
-        Of its lowest point over the floor [m].
-    tilt : float
-        Of its axis from upright [degrees].
-    sawn : float
-        Where it is sawn, as a share of its length from its foot; 0 for whole.
-    duration : float
-        [s].
-    time_step : float
-        [s].
-    frames : int
-        Instants that are kept, with the first.
+    `height` of its lowest point over the floor in m; `tilt` of its axis from upright in degrees; `sawn` is the place of
+    the saw as a share of the length from the foot, 0 for none; `duration` and `time_step` in s; `frames` counts the
+    instants kept, the first included.
 
-    Examples
-    --------
     >>> Fall(duration=0.1).steps
     500
     """
@@ -67,29 +54,7 @@ class Fall(Ranged):
 
 
 def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> World:
-    """The specimen over the floor, at rest, its bonds sawn. Bonds to its plates are left out.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-    law : BondLaw
-        Of the bonds.
-    fall : Fall
-        Height, tilt and place of the saw.
-    bonds : Bonds
-        Poisson's ratio, strength and friction of bonds.
-
-    Returns
-    -------
-    World
-        Spheres, bonds and floor.
-
-    Raises
-    ------
-    InputError
-        For a specimen that only plates hold together.
-    """
+    """The specimen over the floor, at rest, its bonds sawn and its bonds to the plates left out."""
     network, n = specimen.network, specimen.radius.size
     # plates do not fall with the specimen
     inside = np.maximum(network.first, network.second) < n
@@ -122,30 +87,10 @@ def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> Worl
 
 
 def fell(specimen: Specimen, law: BondLaw, fall: Fall = Fall(), bonds: Bonds = Bonds()) -> Content:
-    """Let a specimen fall.
+    """Let a specimen fall; returns arrays and attributes of the file of the fall.
 
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-    law : BondLaw
-        Of the bonds.
-    fall : Fall
-        How it falls.
-    bonds : Bonds
-        Poisson's ratio, strength and friction of bonds.
-
-    Returns
-    -------
-    tuple of dict
-        Arrays and attributes of the file of a fall: the account of energy [J] and the largest speed [m/s] at
-        each instant kept; under frames/ what all spheres and bonds do, as of a test. Of the attributes,
-        shares are of the energy that the fall set free [%].
-
-    Raises
-    ------
-    InputError
-        For a specimen that only plates hold together.
+    Arrays: the account of energy [J] and the largest speed [m/s] at each instant kept, and under frames/ the motion of
+    all spheres and bonds, as of a test. Shares among the attributes are of the energy that the fall set free [%].
     """
     world = released(specimen, law, fall, bonds)
     sawn, start = int(world.broken.sum()), world.position.copy()

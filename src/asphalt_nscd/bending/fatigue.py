@@ -68,22 +68,10 @@ class FatigueLaw(Ranged):
 
 
 def largest_strain(geometry: Geometry) -> float:
-    """Largest strain of the faces in bending theory, per displacement of the head.
+    """Largest strain of the faces in bending theory, per displacement of the head [1/m].
 
     The moment F (h - z) over E e w^2 / 6, w the width at z, and F = E z0 / gamma; EN 12697-24 calls it K_eps.
 
-    Parameters
-    ----------
-    geometry : Geometry
-        Trapezoid.
-
-    Returns
-    -------
-    float
-        [1/m].
-
-    Examples
-    --------
     >>> from asphalt_nscd.measurements.twopoint import PAPER, PAPER_AMPLITUDE
     >>> round(PAPER_AMPLITUDE * largest_strain(PAPER) * 1e6, 1)  # the paper: "less than 50e-6"
     48.6
@@ -94,19 +82,7 @@ def largest_strain(geometry: Geometry) -> float:
 
 
 def largest_strain_at(geometry: Geometry) -> float:
-    """Where the largest strain is: where the width is twice that of the cone that ends at the head, or at the
-    foot.
-
-    Parameters
-    ----------
-    geometry : Geometry
-        Trapezoid.
-
-    Returns
-    -------
-    float
-        Height over the foot [m].
-    """
+    """Height over the foot of the largest strain [m]: where the width is twice the head's, or at the foot."""
     taper = (geometry.B - geometry.b) / geometry.h
     return 0.0 if taper == 0.0 else max(0.0, 2.0 * geometry.h - geometry.B / taper)
 
@@ -120,30 +96,8 @@ def fatigue(
 ) -> FatigueHistory:
     """Tire a specimen at constant displacement of its head until FAILURE of its first stiffness.
 
+    `strain_amplitude` is the largest strain of bending theory; `jumps` says how many cycles one solution may stand for.
     Bonds to the plates do not tire, as a test that fails at its glue does not count.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres of a trapezoid.
-    strain_amplitude : float
-        Largest of bending theory.
-    law : FatigueLaw
-        Of the damage of bonds.
-    bonds : Bonds
-        Poisson's ratio of bonds, and how the head is held.
-    jumps : Jumps
-        How many cycles one solution may stand for.
-
-    Returns
-    -------
-    FatigueHistory
-        Cycles, stiffness, lost bonds and damage.
-
-    Raises
-    ------
-    InputError
-        For a strain out of range, or a specimen that is no trapezoid.
     """
     if not STRAINS.holds(strain_amplitude):
         raise InputError(f"strain = {strain_amplitude:g}; give an amplitude as 100e-6, {STRAINS}.")
@@ -159,30 +113,11 @@ def cycle_by_cycle(
     frequency: float,
     bonds: Bonds = Bonds(),
 ) -> FatigueHistory:
-    """The same by full time steps, every cycle of them: with inertia and the law of the bonds.
+    """Tire a specimen by full time steps, every cycle of them: with inertia and the law of the bonds.
 
     After each cycle bonds take the damage of the harmonics of their openings in it. The stiffness is |E*| by
-    Eqs. (1)-(2), over that of the third cycle, and no gravity acts.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres of a trapezoid.
-    strain_amplitude : float
-        Largest of bending theory.
-    law : FatigueLaw
-        Of the damage of bonds.
-    bond_law : BondLaw
-        Viscoelastic law of the bonds.
-    frequency : float
-        [Hz].
-    bonds : Bonds
-        Poisson's ratio of bonds, and how the head is held.
-
-    Returns
-    -------
-    FatigueHistory
-        Cycles, stiffness, lost bonds and damage.
+    Eqs. (1)-(2), over that of the third cycle, and no gravity acts. `strain_amplitude` is the largest of bending
+    theory; `frequency` in Hz.
     """
     geometry, system = _trapezoid(specimen), _system(specimen, bonds)
     length, tires = specimen.network.length, np.isfinite(system.strength)
@@ -218,36 +153,12 @@ def cycle_by_cycle(
 
 
 def table_of(course: FatigueHistory) -> pd.DataFrame:
-    """A course as a table.
-
-    Parameters
-    ----------
-    course : FatigueHistory
-        Of `fatigue`.
-
-    Returns
-    -------
-    DataFrame
-        cycles, stiffness over the first one, lost_bonds.
-    """
+    """Table of a fatigue history: cycles, stiffness over the first one, lost_bonds."""
     return pd.DataFrame({"cycles": course.cycles, "stiffness": course.stiffness, "lost_bonds": course.lost})
 
 
 def profile_of(specimen: Specimen, course: FatigueHistory) -> pd.DataFrame:
-    """Damage over the height of the specimen.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        That was tired.
-    course : FatigueHistory
-        Of `fatigue`.
-
-    Returns
-    -------
-    DataFrame
-        Of the bonds in each of LAYERS layers: height_share of its middle, mean damage, share of them lost.
-    """
+    """Damage over height, for each of LAYERS layers: height_share of its middle, mean damage, share of bonds lost."""
     # a bond at the very head belongs to the uppermost layer
     layer = np.minimum(LAYERS * specimen.network.point[:, 2] / specimen.geometry.h, LAYERS - 1).astype(int)
     damage = pd.Series(course.damage)

@@ -87,28 +87,10 @@ class Hold(Ranged):
 def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     """Hold a force or a displacement of the head from rest, and set the closed form of the law beside.
 
-    By the form factor of the test; inertia is not counted, weight is left out.
-
-    Parameters
-    ----------
-    model : Model
-        Condensed specimen.
-    law : Burgers or KelvinChain
-        Of the bonds, in the band of `held`.
-    held : Hold
-        What is held.
-
-    Returns
-    -------
-    DataFrame
-        One row for each step: time_s, displacement_m, force_N; of creep D_1_GPa and D_law_1_GPa, of
-        relaxation E_MPa and E_law_MPa. `attrs`: broken_bonds, residual of the full equations.
-
-    Raises
-    ------
-    InputError
-        Where the specimen breaks in two, or so many bonds break that the full equations go on, and more than
-        `MOST_BROKEN` of them, or so many of its gaps close that strains are no longer small.
+    The form factor of the test is used; inertia and weight are left out. Each step has time_s, displacement_m, force_N;
+    of creep D_1_GPa and D_law_1_GPa, of relaxation E_MPa and E_law_MPa. `attrs`: broken_bonds, residual of the full
+    equations. Raises InputError where the specimen breaks in two or, once the full equations go on, more than
+    `MOST_BROKEN` of its bonds break, or so many of its gaps close that strains are no longer small.
     """
     chain = law.as_chain() if isinstance(law, Burgers) else law
     dt, geometry = held.time_step, model.geometry
@@ -139,18 +121,7 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
 
 
 def told(table: pd.DataFrame) -> str:
-    """The end of a hold in one line.
-
-    Parameters
-    ----------
-    table : DataFrame
-        Of `hold`.
-
-    Returns
-    -------
-    str
-        Compliance or modulus beside that of the law, and bonds that broke.
-    """
+    """Say in one line the compliance or modulus at the end of a hold, that of the law, and how many bonds broke."""
     last, name = table.iloc[-1], table.columns[3]
     unit = "1/GPa" if name.startswith("D") else "MPa"
     words = (

@@ -17,15 +17,7 @@ LAYERS = 50
 
 @dataclass(frozen=True)
 class LayerHeights:
-    """Layers of equal height.
-
-    Parameters
-    ----------
-    height : ndarray (l,)
-        Of their middles above the foot [m].
-    spheres : ndarray of int (l,)
-        Number of spheres in each.
-    """
+    """Layers of equal height: `height` (l,) of their middles above the foot in m, `spheres` (l,) the number in each."""
 
     height: np.ndarray
     spheres: np.ndarray
@@ -39,22 +31,7 @@ class Layers(LayerHeights):
 
     @classmethod
     def of(cls, sphere_height: np.ndarray, shape: Shape, degrees: int) -> Layers:
-        """Layers of a specimen.
-
-        Parameters
-        ----------
-        sphere_height : ndarray (n,)
-            In the specimen [m].
-        shape : Shape
-            Geometry; which way it is driven.
-        degrees : int
-            Of freedom d, six for each sphere first.
-
-        Returns
-        -------
-        Layers
-            With what averages over them.
-        """
+        """Layers of a specimen; `sphere_height` (n,) in m over the foot; `degrees` d, six for each sphere first."""
         from scipy import sparse
 
         edges = np.linspace(0.0, shape.h, LAYERS + 1)

@@ -30,26 +30,8 @@ SHAPE = "shape/"
 class Model:
     """A specimen ready for tests.
 
-    Parameters
-    ----------
-    system : BondedSystem
-        Its bonds and masses.
-    basis : ndarray (d, k)
-        Of the reduced form.
-    geometry : Shape
-        Of the specimen.
-    sphere_height : ndarray (n,)
-        Over the foot [m].
-    name : str
-        Of the specimen.
-    head : str
-        "free" or "blocked".
-    stand_by : StandBy, optional
-        Directions for breaks.
-    digest : str
-        Of its file.
-    shape : dict of str to ndarray
-        Spheres and bonds of the specimen, see `_shape`.
+    `basis` (d, k) is that of the reduced form; `sphere_height` (n,) over the foot in m; `head` is "free" or "blocked";
+    `stand_by` holds directions for breaks; `digest` is that of the file; `shape` as `_shape` gives it.
     """
 
     system: BondedSystem
@@ -92,18 +74,7 @@ class Model:
         return (self.layers.mean @ self.basis).T
 
     def require_whole(self, broken: Sequence[int]) -> None:
-        """Refuse a specimen in two pieces: where no path of the bonds that are left joins all plates.
-
-        Parameters
-        ----------
-        broken : sequence of int
-            Bonds that broke.
-
-        Raises
-        ------
-        InputError
-            Which says how many broke.
-        """
+        """Refuse a specimen in two pieces: where no path of the bonds that are left joins all plates."""
         if not self.shape:  # of a file of an older version
             return
         left = np.ones(self.bonds, bool)
@@ -131,39 +102,12 @@ class Model:
 
 
 def read_model(path: str | Path) -> Model:
-    """Read a model made by `condense`.
-
-    Parameters
-    ----------
-    path : path
-        HDF5 file.
-
-    Returns
-    -------
-    Model
-        The specimen, condensed.
-
-    Raises
-    ------
-    InputError
-        Where the file is missing, damaged or of another kind.
-    """
+    """Read a model made by `condense` from HDF5."""
     return model_of(load(path, "model"))
 
 
 def model_of(record: Record) -> Model:
-    """The model in the content of its file.
-
-    Parameters
-    ----------
-    record : Record
-        Arrays, attributes and digest.
-
-    Returns
-    -------
-    Model
-        The specimen, condensed.
-    """
+    """The model in the content of its file."""
     arrays, attributes = record.arrays, record.attributes
     system = BondedSystem(
         operator=sparse.csr_matrix(

@@ -96,36 +96,12 @@ class Rig(HeadDevices):
 
 
 def write_rig(path: str | Path, rig: Rig) -> None:
-    """Write a rig as JSON.
-
-    Parameters
-    ----------
-    path : path
-        File to write.
-    rig : Rig
-        What it holds.
-    """
+    """Write a rig as JSON."""
     write_json(path, rig.columns())
 
 
 def read_rig(path: str | Path) -> Rig:
-    """Read a rig; keys that are absent are zero.
-
-    Parameters
-    ----------
-    path : path
-        JSON file with keys among `KEYS`.
-
-    Returns
-    -------
-    Rig
-        The rig.
-
-    Raises
-    ------
-    InputError
-        For keys that are not known, and values that are no number or out of range.
-    """
+    """Read a rig from JSON with keys among `KEYS`; keys that are absent are zero."""
     content = read_json(path)
     if not isinstance(content, dict):
         raise InputError(f"{path}: not a rig; give an object with keys among {', '.join(KEYS.values())}.")

@@ -38,16 +38,10 @@ RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the 
 
 @dataclass(frozen=True)
 class Frame:
-    """What moves and pulls at one instant; motion from where the specimen stands free of weight.
+    """Motion and bond forces at one instant; motion is from where the specimen stands free of weight.
 
-    Parameters
-    ----------
-    displacement : ndarray (d,)
-        [m] or [rad].
-    velocity : ndarray (d,)
-        [m/s] or [rad/s].
-    reaction : ndarray (3 b,)
-        Of the bonds [N], negative where they pull; zero of the broken ones.
+    `displacement` (d,) in m or rad; `velocity` (d,) in m/s or rad/s; `reaction` (3 b,) of the bonds in N, negative
+    where they pull and zero for broken ones.
     """
 
     displacement: Vector
@@ -56,20 +50,7 @@ class Frame:
 
     @classmethod
     def of(cls, model: Model, state: CondensedState) -> Frame:
-        """The instant at which the full system stands.
-
-        Parameters
-        ----------
-        model : Model
-            Condensed specimen.
-        state : CondensedState
-            Of the full system.
-
-        Returns
-        -------
-        Frame
-            Its motion and reactions.
-        """
+        """The instant at which the full system stands."""
         reaction = model.system.weight * state.sigma
         reaction.reshape(-1, 3)[state.broken] = 0.0
         return cls(state.displacement, state.velocity, reaction)
@@ -79,24 +60,9 @@ class Frame:
 class Histories:
     """What a run gives, a row for each step, those at rest included.
 
-    Parameters
-    ----------
-    force : ndarray (n,)
-        Of the actuator [N].
-    velocity : ndarray (n, l)
-        Means of the layers [m/s].
-    broken : list of int
-        Bonds, in the order in which they broke.
-    residual : float
-        Of the full equations; of "sweeps" the relative change of the last sweep; NaN if not checked.
-    details : dict
-        How the run went.
-    full_steps : int
-        Made by the full system.
-    done : int
-        Steps made.
-    frames : list of Frame
-        Instants kept.
+    `force` (n,) of the actuator in N; `velocity` (n, l), means of the layers, in m/s; `broken` in the order of
+    breaking; `full_steps` of the `done` steps were made by the full system. `residual` is that of the full equations,
+    of "sweeps" the relative change of the last sweep, and NaN if not checked.
     """
 
     force: Vector
@@ -114,26 +80,8 @@ def reduced(
 ) -> Histories:
     """Follow the actuator by the reduced system, and by the full one from where it is needed.
 
-    The compiled kernel makes all steps in one call; where an account, frames, a checkpoint or another scheme
-    than implicit Euler is wanted, they are made one by one.
-
-    Parameters
-    ----------
-    model : Model or ModelExcerpt
-        Condensed specimen.
-    law : BondLaw
-        Of the bonds.
-    case : LoadCase
-        What the actuator does.
-    numerics : Numerics
-        Steps and scheme.
-    options : RunOptions
-        What is told and kept.
-
-    Returns
-    -------
-    Histories
-        A row for each step.
+    The compiled kernel makes all steps in one call; an account, frames, a checkpoint or another scheme than implicit
+    Euler needs them one by one.
     """
     if numerics.scheme == "euler" and not (options.energy or options.frames) and options.checkpoint is None:
         return by_path(model, law, case.rig, numerics.time_step, numerics.driven(case), options)
@@ -150,28 +98,7 @@ def by_path(
     driven: Vector,
     options: RunOptions,
 ) -> Histories:
-    """Follow any path of the actuator by the reduced system in one call.
-
-    Parameters
-    ----------
-    model : Model or ModelExcerpt
-        Condensed specimen.
-    law : BondLaw
-        Of the bonds.
-    devices : HeadDevices
-        At the head.
-    time_step : float
-        [s].
-    driven : ndarray (n,)
-        Where the actuator stands at the ends of the steps [m].
-    options : RunOptions
-        What is told and kept.
-
-    Returns
-    -------
-    Histories
-        A row for each step.
-    """
+    """Follow any path of the actuator in one call; `driven` (n,) in m at the ends of steps of `time_step` in s."""
     stepper = _reduced_stepper(model, law, time_step, devices)
     return _certified(stepper, model, _in_one_call(stepper, model, law, driven, options))
 
@@ -194,26 +121,7 @@ def _certified(stepper: ReducedStepper, model: Model | ModelExcerpt, run: Histor
 def condensed(
     model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions
 ) -> Histories:
-    """Follow the actuator by the full system, its bonds condensed, with the energy account.
-
-    Parameters
-    ----------
-    model : Model
-        Condensed specimen.
-    law : BondLaw
-        Of the bonds.
-    case : LoadCase
-        What the actuator does.
-    numerics : Numerics
-        Steps and scheme.
-    options : RunOptions
-        What is told and kept.
-
-    Returns
-    -------
-    Histories
-        A row for each step.
-    """
+    """Follow the actuator by the full system, its bonds condensed, with the energy account."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedState
 
     state = CondensedState.at_rest(model.system, law)
@@ -226,26 +134,7 @@ def condensed(
 
 
 def sweeps(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions) -> Histories:
-    """Follow the actuator by Gauss-Seidel on the bonds, as in the paper; bonds do not break.
-
-    Parameters
-    ----------
-    model : Model
-        Condensed specimen.
-    law : BondLaw
-        Of the bonds.
-    case : LoadCase
-        What the actuator does.
-    numerics : Numerics
-        Steps, tolerance and number of sweeps.
-    options : RunOptions
-        What is told.
-
-    Returns
-    -------
-    Histories
-        A row for each step.
-    """
+    """Follow the actuator by Gauss-Seidel on the bonds, as in the paper; bonds do not break."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedState
     from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 

@@ -15,36 +15,12 @@ SOFTNESS = 1e7
 
 
 def tared(model: Model) -> Model:
-    """The model without weight, as a machine shows it that is set to zero with the specimen in it.
-
-    Parameters
-    ----------
-    model : Model
-        Condensed specimen.
-
-    Returns
-    -------
-    Model
-        Without load, and without directions for breaks.
-    """
+    """The model without weight or directions for breaks, as a machine set to zero with the specimen in it shows it."""
     # directions kept ready hold the projection of a system with weight
     system = replace(model.system, load=np.zeros_like(model.system.load))
     return replace(model, system=system, stand_by=None)
 
 
 def soft_clamp(model: Model, modulus: float) -> float:
-    """A clamp by which an actuator commands the force.
-
-    Parameters
-    ----------
-    model : Model
-        Condensed specimen.
-    modulus : float
-        Of the specimen [Pa].
-
-    Returns
-    -------
-    float
-        Compliance [m/N].
-    """
+    """Compliance of a clamp by which an actuator commands the force [m/N]; `modulus` of the specimen in Pa."""
     return SOFTNESS * model.geometry.form_factor() / modulus

@@ -35,22 +35,9 @@ class LocalProblem:
 class Outcome:
     """One line of the table: what became of one file.
 
-    Parameters
-    ----------
-    file : str
-        Its name.
-    contacts : int
-        Their number.
-    iterations : int
-        Sweeps and steps.
-    error : float
-        Natural map as Siconos states it.
-    scaled_error : float
-        Natural map in units of energy.
-    seconds : float
-        CPU; reading, compilation and first use of memory aside.
-    converged : bool
-        Whether both errors are within the tolerance.
+    `error` is the natural map as Siconos states it, `scaled_error` the same in units of energy; `iterations` counts
+    sweeps and steps; `seconds` is CPU time, reading, compilation and first use of memory aside. `converged` holds where
+    both errors are within the tolerance.
     """
 
     file: str
@@ -70,25 +57,7 @@ class Outcome:
 
 
 def solve_files(files: Sequence[str | Path], tolerance: float) -> list[Outcome]:
-    """Solve the problem of each file; all are read before the first is solved.
-
-    Parameters
-    ----------
-    files : sequence of path
-        HDF5 files of FCLIB.
-    tolerance : float
-        Of both errors.
-
-    Returns
-    -------
-    list of Outcome
-        One for each file.
-
-    Raises
-    ------
-    InputError
-        For a file that holds no such problem.
-    """
+    """Solve the FCLIB problem of each file to a tolerance of both errors; all are read before the first is solved."""
     # all first: a file that cannot be read is told before minutes go into the others
     problems = [read_problem(file) for file in files]
     outcomes = []
@@ -115,39 +84,12 @@ def solve_files(files: Sequence[str | Path], tolerance: float) -> list[Outcome]:
 
 
 def table(outcomes: Sequence[Outcome]) -> pd.DataFrame:
-    """The outcomes as a table.
-
-    Parameters
-    ----------
-    outcomes : sequence of Outcome
-        Of `solve_files`.
-
-    Returns
-    -------
-    DataFrame
-        One row for each file.
-    """
+    """Table of outcomes, one row for each file."""
     return pd.DataFrame([asdict(outcome) for outcome in outcomes])
 
 
 def read_problem(path: str | Path) -> LocalProblem:
-    """Read and check one file.
-
-    Parameters
-    ----------
-    path : path
-        HDF5 file of FCLIB.
-
-    Returns
-    -------
-    LocalProblem
-        W, q and mu.
-
-    Raises
-    ------
-    InputError
-        In one sentence, for any other or damaged one.
-    """
+    """Read and check one FCLIB file: W, q and mu; any other or damaged file is refused in one sentence."""
     import h5py
 
     if not Path(path).is_file():

@@ -52,15 +52,7 @@ NOTABLE = 3.0  # standard deviations from which the mean residual of a condition
 
 @dataclass(frozen=True)
 class Expected:
-    """What a campaign may have.
-
-    Parameters
-    ----------
-    chance : float
-        That a campaign has a cause at all.
-    size : float
-        Usual, in the unit of its amplitude.
-    """
+    """The `chance` that a campaign has a cause at all, and its usual `size` in the unit of its amplitude."""
 
     chance: float
     size: float
@@ -98,15 +90,7 @@ TORN = 25.0
 
 @dataclass(frozen=True)
 class Usual:
-    """What a laboratory adds.
-
-    Parameters
-    ----------
-    size : float
-        Usual standard deviation.
-    spread : float
-        Standard deviation of its logarithm between laboratories.
-    """
+    """What a laboratory adds: usual standard deviation `size`, and `spread` of its logarithm between laboratories."""
 
     size: float
     spread: float

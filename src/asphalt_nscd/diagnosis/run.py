@@ -47,25 +47,7 @@ MATTERING = 0.02  # share of the tests that doubtful ones must have for one
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a diagnosis gives: the content of its files.
-
-    Parameters
-    ----------
-    content : dict
-        Of diagnosis.json.
-    residuals : DataFrame
-        Of residuals.csv.
-    causality : DataFrame
-        Of causality.csv.
-    law : dict or None
-        Content of law.json; None for one isotherm.
-    diagnosis : Diagnosis, optional
-        That gave them; None if they were read from files.
-    limits : DataFrame, optional
-        Of limits.csv, where limits were verified.
-    to_report : mapping of str to DataFrame
-        Of further tables, by the stem of their file.
-    """
+    """Content of the files of a diagnosis; `law` is None for one isotherm, `diagnosis` None if read from files."""
 
     content: dict[str, Any]
     residuals: pd.DataFrame
@@ -76,34 +58,12 @@ class Outcome:
     to_report: Mapping[str, pd.DataFrame] = field(default_factory=dict)
 
     def with_limits(self, table: pd.DataFrame) -> Outcome:
-        """The same with limits that were verified.
-
-        Parameters
-        ----------
-        table : DataFrame
-            Of `measured_limits.verify`.
-
-        Returns
-        -------
-        Outcome
-            Another one.
-        """
+        """The same outcome with limits that were verified, a table of `measured_limits.verify`."""
         content = self.content | {"measured_limits": measured_limits.summarised(table)}
         return replace(self, content=content, limits=table)
 
     def write(self, folder: str | Path) -> list[str]:
-        """Write the files into a folder.
-
-        Parameters
-        ----------
-        folder : path
-            Made where it does not exist.
-
-        Returns
-        -------
-        list of str
-            Their names.
-        """
+        """Write the files into a folder, which is made where it does not exist; their names."""
         files: dict[str, Any] = {
             "diagnosis.json": self.content,
             "residuals.csv": self.residuals,
@@ -119,18 +79,7 @@ class Outcome:
         return names
 
     def written(self, folder: str | Path) -> str:
-        """Write the files.
-
-        Parameters
-        ----------
-        folder : path
-            Made where it does not exist.
-
-        Returns
-        -------
-        str
-            The answer, and what was written.
-        """
+        """Write the files into a folder, made where it does not exist; the answer, and what was written, in words."""
         names = self.write(folder)
         return f"{answer(self.content)}\n\nWritten to {folder}: {', '.join(names)}."
 
@@ -184,22 +133,9 @@ class Simulated:
 class Stated:
     """What the user says beside the table.
 
-    Parameters
-    ----------
-    static_modulus : float, optional
-        Of the mix [Pa].
-    scatter : tuple of float, optional
-        Of |E*| (relative) and of the phase [rad].
-    law : str
-        One of `LAWS`, the form that is fitted.
+    `static_modulus` of the mix in Pa; `scatter` of |E*| (relative) and of the phase [rad]; `law`: one of `LAWS`, the
+    form that is fitted.
 
-    Raises
-    ------
-    InputError
-        For a law that is not known.
-
-    Examples
-    --------
     >>> Stated().law
     '2s2p1d'
     """
@@ -222,33 +158,7 @@ def conclude(
     draws: Draws = Draws(),  # noqa: B008  frozen
     progress: Progress = lambda *_: None,
 ) -> Outcome:
-    """Diagnose measurements.
-
-    Parameters
-    ----------
-    measurements : path or Campaign
-        Table or campaign.
-    geometry : path or mapping
-        Of the specimens.
-    stated : Stated
-        What the user says beside the table.
-    simulated : Simulated
-        What was simulated of the same tests.
-    draws : Draws
-        Of the chance level.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    Outcome
-        Content of the files.
-
-    Raises
-    ------
-    InputError
-        For a table that cannot be diagnosed.
-    """
+    """Diagnose a table or campaign of measurements: the content of the files that a diagnosis writes."""
     scatter = stated.scatter
     numerical = read_specimen(simulated.specimen)
     campaign = measurements if isinstance(measurements, Campaign) else None
@@ -354,18 +264,7 @@ def conclude(
 
 
 def law_parameters(law: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
-    """Parameters in the content of a law file with their intervals; `tau_s` carries its unit.
-
-    Parameters
-    ----------
-    law : mapping
-        Content of law.json.
-
-    Returns
-    -------
-    dict of str to dict
-        value, interval_95 and determined of each.
-    """
+    """Parameters in the content of a law file with value, interval_95 and determined; `tau_s` carries its unit."""
     intervals = law.get("interval_95", {})
     return {
         key: {"value": value, "interval_95": intervals.get(key), "determined": key not in law["unseen"]}
@@ -402,23 +301,10 @@ def _begin_with_campaigns(
 def second_opinions(
     diagnosis: Diagnosis, scatter: tuple[float, float] | None, seed: int
 ) -> dict[str, dict[str, Any] | None]:
-    """What is named with the tests that were set aside, and without the doubtful ones; None where nobody asks.
+    """Verdict and causes "with_suspects" (tests set aside) and "without_doubtful" ones; None where nobody asks.
 
-    Without them: only where something was named, and they are not few. Too many leave no table that can be diagnosed.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Finished.
-    scatter : tuple of float, optional
-        Stated, as `diagnose` takes it.
-    seed : int
-        Of the draws.
-
-    Returns
-    -------
-    dict
-        "with_suspects" and "without_doubtful": verdict and causes, or None.
+    The second is asked only where something was named and the doubtful tests are not few. Too many of them leave no
+    table that can be diagnosed: None then, too.
     """
 
     def named(tests: Observations) -> dict[str, Any]:

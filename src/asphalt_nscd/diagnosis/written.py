@@ -44,23 +44,7 @@ _SHOWN = {
 
 
 def read_diagnosis(paths: Sequence[Path]) -> dict[str, Any]:
-    """Read the one diagnosis.json.
-
-    Parameters
-    ----------
-    paths : sequence of path
-        One.
-
-    Returns
-    -------
-    dict
-        What `DIAGNOSIS_SCHEMA` says.
-
-    Raises
-    ------
-    InputError
-        For another version, or a damaged file.
-    """
+    """Read the one diagnosis.json and check its version and `DIAGNOSIS_SCHEMA`."""
     path = the_only(paths, "diagnosis")
     content = read_json(path)
     version = content.get("schema_version") if isinstance(content, dict) else None
@@ -80,18 +64,9 @@ def _schema() -> Draft202012Validator:
 
 
 def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
-    """Read the one residuals.csv.
+    """Read the one residuals.csv: each test measured and simulated, before and after, and what lies between.
 
-    Parameters
-    ----------
-    paths : sequence of path
-        One.
-
-    Returns
-    -------
-    DataFrame
-        Each test measured and simulated, before and after, and what lies between. NaN before: a condition
-        that the study did not simulate.
+    NaN before is a condition that the study did not simulate.
     """
     table = read_csv(the_only(paths, "residuals"))
     table.require(["specimen", *_NUMBERS])
@@ -102,18 +77,7 @@ def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
 
 
 def read_causality(paths: Sequence[Path]) -> pd.DataFrame:
-    """Read the one causality.csv.
-
-    Parameters
-    ----------
-    paths : sequence of path
-        One.
-
-    Returns
-    -------
-    DataFrame
-        Each test's phase, the phase that |E*| requires (NaN: not judged), what is suspect.
-    """
+    """Read the one causality.csv: each test's phase, that which |E*| requires (NaN: not judged), what is suspect."""
     table = read_csv(the_only(paths, "causality"))
     required, error = "phase_required_deg", "std_error_deg"
     table.require(["specimen", *_TEST, required, error, "quality_flag", "reasons", "used"])
@@ -128,17 +92,8 @@ def read_causality(paths: Sequence[Path]) -> pd.DataFrame:
 def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFrame:
     """Means over specimens by temperature and frequency.
 
-    Parameters
-    ----------
-    residuals : DataFrame
-        Of `read_residuals`.
-    scatter : dict of str to float
-        Of one test, of diagnosis.json.
-
-    Returns
-    -------
-    DataFrame
-        With `z_<column>` for each residual: the mean residual over its standard deviation.
+    `scatter` is that of one test; the column `z_<column>` of a residual is its mean over the standard deviation of that
+    mean.
     """
     means = averages(residuals, columns=_NUMBERS[2:])
     for quantity, sigma in (("E", scatter["modulus_percent"]), ("phase", scatter["phase_deg"])):
@@ -150,19 +105,10 @@ def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFra
 
 
 def mean_averages(gain: dict[str, Any], inner: bool = False) -> dict[str, dict[str, float]]:
-    """Errors of |E*| and phase before and after, as in Table 4, mean over temperatures.
+    """Errors of |E*| and phase before and after [%], as in Table 4, in the mean over the temperatures of a rung.
 
-    Parameters
-    ----------
-    gain : dict
-        Of a rung.
-    inner : bool
-        Over temperatures between others only; an end that is left out of a fit is extrapolated.
-
-    Returns
-    -------
-    dict of str to dict of float
-        In percent.
+    `inner` leaves out the coldest and the warmest, unless they are all: an end that is left out of a fit is
+    extrapolated.
     """
     at = sorted(gain["averages_by_temperature"], key=float)
     there = [gain["averages_by_temperature"][t] for t in ((inner and at[1:-1]) or at)]
@@ -173,59 +119,19 @@ def mean_averages(gain: dict[str, Any], inner: bool = False) -> dict[str, dict[s
 
 
 def shown(value: float, unit: str) -> tuple[float, str]:
-    """A value in the unit that people use for its size: 2.9e-5, "s" -> 0.029, "ms".
-
-    Parameters
-    ----------
-    value : float
-        Of the diagnosis.
-    unit : str
-        Of the value.
-
-    Returns
-    -------
-    float
-        The value.
-    str
-        Its unit.
-    """
+    """A value and its unit as people use them for its size: 2.9e-5, "s" -> 0.029, "ms"."""
     factor, name = _SHOWN.get(unit, (1.0, unit))
     return factor * value, name
 
 
 def three_digits(value: float) -> str:
-    """1553.2 -> "1550", 0.02861 -> "0.0286".
-
-    Parameters
-    ----------
-    value : float
-        Any.
-
-    Returns
-    -------
-    str
-        Three digits.
-    """
+    """A number in three digits: 1553.2 -> "1550", 0.02861 -> "0.0286"."""
     return f"{float(f'{value:.3g}'):.10g}"
 
 
 def with_interval(value: float, half: float) -> str:
     """A value and its interval to the second digit of the interval.
 
-    Parameters
-    ----------
-    value : float
-        Of an estimate.
-    half : float
-        Of its interval.
-
-    Returns
-    -------
-    str
-        Both.
-
-    Examples
-    --------
     >>> with_interval(0.739, 1.08), with_interval(3.0, 0.392), with_interval(-227.4, 268.0)
     ('0.7 +- 1.1', '3.00 +- 0.39', '-230 +- 270')
     """
@@ -236,42 +142,15 @@ def with_interval(value: float, half: float) -> str:
 
 
 def widening(spread: float) -> float:
-    """Factor on intervals and limits of a table whose tests lie far from the fit; see `Ladder.estimates_spread`.
-
-    Parameters
-    ----------
-    spread : float
-        Of the estimates.
-
-    Returns
-    -------
-    float
-        1 at least.
-    """
+    """Factor, 1 at least, on intervals and limits where tests lie far from the fit; see `Ladder.estimates_spread`."""
     return spread if spread >= WIDE_SPREAD else 1.0
 
 
 def interval_95(value: float, error: float, factor: float = 1.0, of_logarithm: bool = False) -> list[float]:
-    """Ends of the 95 % interval of an estimate.
+    """Ends (2,) of the 95 % interval of an estimate with a standard error, in the unit of the value.
 
-    Parameters
-    ----------
-    value : float
-        Of the estimate.
-    error : float
-        Its standard error.
-    factor : float
-        See `widening`.
-    of_logarithm : bool
-        Whether it is the logarithm that is so uncertain.
+    `factor` is that of `widening`; with `of_logarithm` it is the logarithm that is so uncertain.
 
-    Returns
-    -------
-    list of float (2,)
-        In the unit of the value.
-
-    Examples
-    --------
     >>> interval_95(1.0, 0.5)
     [0.020000000000000018, 1.98]
     >>> [round(end, 3) for end in interval_95(2.0, 1.0, of_logarithm=True)]
@@ -285,74 +164,26 @@ def interval_95(value: float, error: float, factor: float = 1.0, of_logarithm: b
 
 
 def place_name(where: str | float | None) -> str:
-    """Where a cause sits, in words.
-
-    Parameters
-    ----------
-    where : str or float or None
-        A specimen or an isotherm [degC]; None for all tests.
-
-    Returns
-    -------
-    str
-        Empty for all tests.
-    """
+    """Where a cause sits, in words: a specimen or an isotherm [degC]; empty for all tests (None)."""
     if where is None:
         return ""
     return specimen_named(where) if isinstance(where, str) else f"{where:g} °C".replace("-", "\N{MINUS SIGN}")
 
 
 def name_at(cause: str, place: str | float | None) -> str:
-    """`cause` or `cause @ place`.
-
-    Parameters
-    ----------
-    cause : str
-        Its name.
-    place : str or float or None
-        A specimen or an isotherm [degC]; None for all tests.
-
-    Returns
-    -------
-    str
-        Both.
-    """
+    """`cause @ place`, or `cause` alone for all tests (None); a place is a specimen or an isotherm [degC]."""
     return cause if place is None else f"{cause} @ {place}"
 
 
 def limits_by_place(cause: str, limit: dict[str, Any]) -> dict[str, float]:
-    """Detection limits of one cause.
-
-    Parameters
-    ----------
-    cause : str
-        Its name.
-    limit : dict
-        Of diagnosis.json.
-
-    Returns
-    -------
-    dict of str to float
-        By `place_name` of its places.
-    """
+    """Detection limits of one cause by the `place_name` of its places."""
     if "places" not in limit:
         return {place_name(None): limit["value"]}
     return {_place(cause, place): value for place, value in limit["places"].items()}
 
 
 def member_name(member: str) -> str:
-    """A member of a list of causes in words: `temperature bias (30 °C)`.
-
-    Parameters
-    ----------
-    member : str
-        `cause @ place`.
-
-    Returns
-    -------
-    str
-        In words.
-    """
+    """A member `cause @ place` of a list of causes in words: `temperature bias (30 °C)`."""
     cause, _, place = member.partition(" @ ")
     return cause.replace("_", " ") + (f" ({_place(cause, place)})" if place else "")
 

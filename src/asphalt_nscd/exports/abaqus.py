@@ -16,23 +16,7 @@ LONGEST_NAME = 80  # characters of a label
 
 
 def text(card: Card) -> str:
-    """The card as lines of an input file.
-
-    Parameters
-    ----------
-    card : Card
-        Law as a Prony series.
-
-    Returns
-    -------
-    str
-        With comments.
-
-    Raises
-    ------
-    InputError
-        For a name that Abaqus does not take.
-    """
+    """The card as commented lines of an Abaqus input file; refuses a name that Abaqus does not take."""
     name, series = card.settings.name, card.series
     # A comma in a keyword line begins the next parameter, and the name comes from the user.
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name) or len(name) > LONGEST_NAME:

@@ -16,23 +16,7 @@ MATERIAL = "ASPHALT_MAT"
 
 
 def text(card: Card) -> str:
-    """The card as commands to be read within /PREP7.
-
-    Parameters
-    ----------
-    card : Card
-        Law as a Prony series.
-
-    Returns
-    -------
-    str
-        With comments.
-
-    Raises
-    ------
-    InputError
-        For more Prony terms than Ansys takes.
-    """
+    """The card as commented commands to be read within /PREP7; refuses more Prony terms than Ansys takes."""
     series = card.series
     terms = list(zip(series.weights, series.times, strict=True))
     if len(terms) > MOST_TERMS:

@@ -27,35 +27,14 @@ WIDTH = 100  # characters of a line of comment
 
 @dataclass(frozen=True)
 class Units:
-    """A consistent system of units.
-
-    Parameters
-    ----------
-    name : str
-        Of the system.
-    stress : str
-        Its unit of stress.
-    pascals : float
-        How many Pa that is.
-    """
+    """A consistent system of units, whose unit `stress` is `pascals` Pa."""
 
     name: str
     stress: str
     pascals: float
 
     def of(self, modulus: float) -> float:
-        """A modulus in these units.
-
-        Parameters
-        ----------
-        modulus : float
-            [Pa].
-
-        Returns
-        -------
-        float
-            In `stress`.
-        """
+        """A modulus [Pa] in the unit `stress`."""
         return modulus / self.pascals
 
 
@@ -64,18 +43,10 @@ UNITS = {"SI": Units("m, N, s, Pa", "Pa", 1.0), "mm-N-MPa": Units("mm, N, s, MPa
 
 @dataclass(frozen=True)
 class Settings:
-    """What the user chooses.
+    """What the user chooses for an export.
 
-    Parameters
-    ----------
-    allowed : Miss
-        Largest errors of the series.
-    poisson : float, optional
-        None: assumed.
-    units : Units
-        Of the file.
-    name : str
-        Of the material.
+    `allowed` are the largest errors of the series; where `poisson` is None it is assumed; `units` are those of the
+    file, `name` that of the material.
     """
 
     allowed: Miss = Miss(1.0, 0.5)
@@ -94,20 +65,9 @@ class Settings:
 
 @dataclass(frozen=True)
 class Card:
-    """A law as a Prony series at `law.temperature`.
+    """A law as a Prony series at `law.temperature`, with its largest errors over the band.
 
-    Parameters
-    ----------
-    law : ExportedLaw
-        Of a file.
-    settings : Settings
-        What the user chose.
-    series : MaxwellSeries
-        That stands for the law.
-    error : Miss
-        Its largest errors over the band.
-    exact : bool
-        Whether it is the law itself.
+    `exact` says that the series is the law itself.
     """
 
     law: ExportedLaw
@@ -133,15 +93,10 @@ class Card:
 
     @property
     def half_widths(self) -> NDArray[np.float64] | None:
-        """Half of the 95 % intervals of the moduli of the series, to first order.
+        """Half of the 95 % intervals of long-term modulus and branches, (1 + m,) [Pa], to first order.
 
-        Of the moduli that follow the law over the band when its parameters move by their covariance.
-
-        Returns
-        -------
-        ndarray (1 + m,), or None
-            Of the long-term modulus and of each branch [Pa], at their relaxation times; None where the law's
-            file has no covariance.
+        The moduli are those that follow the law over the band when its parameters move by their covariance, at fixed
+        relaxation times. None where the law's file has no covariance, and for an exact series.
         """
         known, low_high = self.law.uncertainty, self.law.reduced_band()
         if known is None or self.exact:
@@ -194,18 +149,7 @@ class Card:
         return said
 
     def comment(self, sign: str) -> list[str]:
-        """The statements as lines of comment.
-
-        Parameters
-        ----------
-        sign : str
-            With which a line of comment begins.
-
-        Returns
-        -------
-        list of str
-            In ASCII.
-        """
+        """The statements as ASCII lines of comment, each of which begins with `sign`."""
         return [
             # ASCII: none of these programs was run, and a name may hold any letter.
             f"{sign} {line}".encode("ascii", "replace").decode()
@@ -278,22 +222,7 @@ class Card:
 def make_card(law: ExportedLaw, settings: Settings) -> Card:
     """The card of a law: exact where its series is finite, else fitted within the allowed error.
 
-    Parameters
-    ----------
-    law : ExportedLaw
-        Of a file.
-    settings : Settings
-        What the user chose.
-
-    Returns
-    -------
-    Card
-        With the series and its errors.
-
-    Raises
-    ------
-    InputError
-        For a law that does not relax over its band, or an error that cannot be met.
+    Refuses a law that does not relax over its band, and an error that cannot be met.
     """
     low, high = law.reduced_band()
     chain = law.law.as_chain() if isinstance(law.law, Burgers) else law.law
@@ -318,18 +247,7 @@ def make_card(law: ExportedLaw, settings: Settings) -> Card:
 
 
 def number(value: float) -> str:
-    """A number as all programs read it.
-
-    Parameters
-    ----------
-    value : float
-        Any.
-
-    Returns
-    -------
-    str
-        Ten digits.
-    """
+    """A number in ten digits, as all programs read it."""
     # Ten digits: the long-term share of a law that flows, 1e-6, is what the weights leave of one.
     return f"{value:.9E}"
 

@@ -17,22 +17,10 @@ COLOURS = ("1F4E79", "C0504D", "9BBB59", "8064A2", "F79646", "4BACC6", "7F7F7F",
 
 @dataclass(frozen=True)
 class Line:
-    """A column of a sheet over another.
+    """A line of a chart: the column of a sheet with heading `y` over the one with heading `x`.
 
-    Parameters
-    ----------
-    name : str
-        In the legend.
-    sheet : str
-        Of the workbook.
-    x, y : str
-        Headings of the columns.
-    rows : tuple of int, optional
-        First and last, from 1; None for all below the heading.
-    points : bool
-        Marks alone.
-    dashed : bool
-        The end of an interval.
+    `name` stands in the legend; `rows` are first and last, from 1, None for all below the heading; `points` draws marks
+    alone; `dashed` marks the end of an interval.
     """
 
     name: str
@@ -46,19 +34,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Plot:
-    """Lines over common axes.
-
-    Parameters
-    ----------
-    title : str
-        Of the chart.
-    x, y : str
-        Titles of the axes.
-    lines : sequence of Line
-        What it shows.
-    log_x, log_y : bool
-        Whether an axis is logarithmic.
-    """
+    """Lines over common axes, with titles `x` and `y`."""
 
     title: str
     x: str
@@ -69,15 +45,7 @@ class Plot:
 
 
 def draw(book: Workbook, plots: Sequence[Plot]) -> None:
-    """Add a sheet with charts, below each other; a line whose sheet or column is absent is left out.
-
-    Parameters
-    ----------
-    book : Workbook
-        Is changed.
-    plots : sequence of Plot
-        The charts.
-    """
+    """Add a sheet with charts, below each other; a line whose sheet or column is absent is left out."""
     sheet = book.create_sheet("Charts")
     for number, plot in enumerate(plots):
         chart = ScatterChart()
@@ -102,15 +70,7 @@ def draw(book: Workbook, plots: Sequence[Plot]) -> None:
 
 
 def fit_to_page(sheet: Worksheet, landscape: bool = False) -> None:
-    """Print all columns within the width of an A4 page.
-
-    Parameters
-    ----------
-    sheet : Worksheet
-        Is changed.
-    landscape : bool
-        Whether the page lies.
-    """
+    """Print all columns within the width of an A4 page."""
     sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
     sheet.page_setup.paperSize = sheet.PAPERSIZE_A4
     sheet.page_setup.orientation = "landscape" if landscape else "portrait"
@@ -151,24 +111,7 @@ def _series(book: Workbook, line: Line, drawn: dict[str, str]) -> Series | None:
 
 
 def bands(name: str, sheet: str, x: str, columns: tuple[str, str, str]) -> list[Line]:
-    """An estimate and the ends of its 95 % interval.
-
-    Parameters
-    ----------
-    name : str
-        Of the estimate.
-    sheet : str
-        Of the workbook.
-    x : str
-        Heading of the abscissa.
-    columns : tuple of str
-        Headings of value, lower and upper end.
-
-    Returns
-    -------
-    list of Line
-        Three lines.
-    """
+    """Lines of an estimate and both ends of its 95 % interval, by their three headings `columns`, over heading `x`."""
     value, low, high = columns
     return [
         Line(name, sheet, x, value),

@@ -11,18 +11,7 @@ from asphalt_nscd.rheology.shift import ZERO_CELSIUS
 
 
 def text(card: Card) -> str:
-    """The card as a table with a readme.
-
-    Parameters
-    ----------
-    card : Card
-        Law as a Prony series.
-
-    Returns
-    -------
-    str
-        Lines that begin with % are the readme.
-    """
+    """The card as a table with a readme, whose lines begin with %."""
     series, nu, units = card.series, card.poisson, card.settings.units
     shear, bulk = 0.5 / (1.0 + nu), 1.0 / (3.0 * (1.0 - 2.0 * nu))
     stress = f"[{units.stress}]"

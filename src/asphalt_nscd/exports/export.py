@@ -15,29 +15,7 @@ FAR_OFF = 0.15  # of ln |E*|, root mean square: a law that is no law of these te
 
 
 def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Path) -> str:
-    """Write a law for another program.
-
-    Parameters
-    ----------
-    law : ExportedLaw
-        Of a file.
-    settings : Settings
-        What the user chose.
-    form : str
-        One of FORMATS.
-    output : path
-        File to write.
-
-    Returns
-    -------
-    str
-        A line that says what was written, and how well it follows the law.
-
-    Raises
-    ------
-    InputError
-        For a law that the format cannot hold.
-    """
+    """Write a law in one of FORMATS; returns a line on what was written and how well it follows the law."""
     output = Path(output)
     require_form(form, output)
     # By name: only a workbook loads openpyxl.
@@ -59,20 +37,7 @@ def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Pa
 
 
 def require_form(form: str, output: Path) -> None:
-    """Refuse an unknown format, and an output whose ending is not of the format.
-
-    Parameters
-    ----------
-    form : str
-        Asked for.
-    output : path
-        Asked for.
-
-    Raises
-    ------
-    InputError
-        Which names those that exist.
-    """
+    """Refuse an unknown format, and an output whose ending is not of the format."""
     if form == "vtk":
         raise InputError(
             f"format 'vtk' is for spheres and tests (HDF5); give a law one of {', '.join(FORMATS)}."

@@ -36,17 +36,7 @@ _SAID = ("temperature_C", "rms_log_residual")
 
 @dataclass(frozen=True)
 class Band:
-    """Tested temperatures and frequencies, one of each for every test.
-
-    Parameters
-    ----------
-    temperature : ndarray (n,)
-        [degC].
-    frequency : ndarray (n,)
-        [Hz].
-    origin : str
-        Who says so.
-    """
+    """Tested temperatures (n,) [degC] and frequencies (n,) [Hz], one of each for every test; `origin`: who says so."""
 
     temperature: Vector
     frequency: Vector
@@ -60,36 +50,12 @@ class Band:
 
 @dataclass(frozen=True)
 class ExportedLaw:
-    """A law and what its file says.
+    """A law in SI units and what its file says.
 
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    kind : str
-        "burgers", "kelvin_chain" or one of LAWS.
-    source : str
-        As the file has it.
-    law : Spectrum or Burgers or KelvinChain
-        In SI units.
-    temperature : float
-        The only one, or the reference temperature of the shift [degC].
-    shift : WLF or Arrhenius or None
-        None for a law of one temperature.
-    band : Band
-        In which it was tested.
-    parameters : dict of str to float
-        Under the keys of the file, which carry the units.
-    std_error : dict of str to float
-        Of some of them.
-    rms_log_residual : float or None
-        Of the fit to tests.
-    unseen : tuple of str
-        Parameters that the tests do not determine at all.
-    uncertainty : Uncertainty, optional
-        Where the file says it.
-    intervals : mapping
-        95 %, of parameters.
+    `kind` is "burgers", "kelvin_chain" or one of LAWS; `temperature` in degC is the only one, or the reference of the
+    shift; `shift` is None for a law of one temperature; `band` is where it was tested; `parameters` (with `std_error`
+    of some, and 95 % `intervals`) have the keys of the file, which carry the units; `rms_log_residual` is that of the
+    fit to tests; `unseen` are parameters that the tests do not determine at all.
     """
 
     path: Path
@@ -125,79 +91,32 @@ class ExportedLaw:
         return f"The tests hardly determine {', '.join(found)}: do not trust the law beyond them."
 
     def at_reference(self, omega: Vector) -> Complex:
-        """E* at `temperature`.
-
-        Parameters
-        ----------
-        omega : ndarray (n,)
-            Angular frequencies [rad/s].
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            [Pa].
-        """
+        """E* (n,) [Pa] at `temperature` and angular frequencies `omega` (n,) [rad/s]."""
         if self.shift is None:
             return self.law.complex_modulus(omega)  # type: ignore[call-arg]
         return self.law.complex_modulus(omega, self.temperature)  # type: ignore[call-arg]
 
     def factor(self, temperature: Vector) -> Vector:
-        """The shift factor.
-
-        Parameters
-        ----------
-        temperature : ndarray (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray (n,)
-            a_T; 1 for a law of one temperature.
-        """
+        """The shift factor a_T (n,) at temperatures (n,) [degC]; 1 for a law of one temperature."""
         return np.ones_like(temperature) if self.shift is None else self.shift.factor(temperature)
 
     def defined(self, temperature: Vector) -> NDArray[np.bool_]:
-        """Whether the shift is defined; a WLF shift ends C2 below its reference.
-
-        Parameters
-        ----------
-        temperature : ndarray (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray of bool (n,)
-            True where it is.
-        """
+        """Whether the shift is defined at temperatures (n,) [degC]; a WLF shift ends C2 below its reference."""
         if not isinstance(self.shift, WLF):
             return np.full(temperature.shape, True)
         return temperature - self.shift.reference_temperature + self.shift.c2 > 0.0
 
     def half_widths(self, omega: Vector) -> Complex | None:
-        """Half of the 95 % intervals at `temperature`.
+        """Half of the 95 % intervals at `temperature` and `omega` (n,) [rad/s]; None where the file does not tell.
 
-        Parameters
-        ----------
-        omega : ndarray (n,)
-            Angular frequencies [rad/s].
-
-        Returns
-        -------
-        ndarray of complex (n,), or None
-            Of ln|E*| and, imaginary, of the phase [rad]; None where the file does not tell.
+        Complex (n,): of ln|E*| and, imaginary, of the phase [rad].
         """
         if self.uncertainty is None or isinstance(self.law, Burgers | KelvinChain):
             return None
         return self.uncertainty.half(self.law, omega, np.full(omega.shape, self.temperature))
 
     def reduced_band(self) -> tuple[float, float]:
-        """The tested band, shifted to `temperature`.
-
-        Returns
-        -------
-        tuple of float
-            Lowest and highest angular frequency [rad/s].
-        """
+        """Lowest and highest angular frequency [rad/s] of the tested band, shifted to `temperature`."""
         reduced = 2.0 * np.pi * self.band.frequency * self.factor(self.band.temperature)
         return float(reduced.min()), float(reduced.max())
 
@@ -213,20 +132,10 @@ class ExportedLaw:
 
 
 def as_wlf(shift: Arrhenius) -> WLF:
-    """WLF constants of an Arrhenius shift, the same at all temperatures.
+    """WLF constants of an Arrhenius shift, the same at all temperatures: C1 = E_a / (ln(10) R T0), C2 = T0 [K].
 
-    Parameters
-    ----------
-    shift : Arrhenius
-        Activation energy [J/mol] and reference temperature [degC].
+    Both shifts have the same reference temperature T0.
 
-    Returns
-    -------
-    WLF
-        With C1 = E_a / (ln(10) R T0) and C2 = T0 [K], about the same reference temperature.
-
-    Examples
-    --------
     >>> arrhenius = Arrhenius(activation_energy=200e3, reference_temperature=15.0)
     >>> (as_wlf(arrhenius).factor([-20, 40]) / arrhenius.factor([-20, 40])).round(12).tolist()
     [1.0, 1.0]
@@ -244,25 +153,8 @@ def read_law_file(
 ) -> ExportedLaw:
     """Read a law of a study, of a diagnosis (or the folder of one), or of the extended simulation.
 
-    Parameters
-    ----------
-    path : path
-        JSON file, or folder of a diagnosis.
-    temperatures : tuple of float, optional
-        The tested ones [degC].
-    frequencies : tuple of float, optional
-        The tested ones [Hz]; every pair. Where they are absent, those of residuals.csv beside the law of a
-        diagnosis, or the band of a Kelvin chain, or usual ones.
-
-    Returns
-    -------
-    ExportedLaw
-        With the band.
-
-    Raises
-    ------
-    InputError
-        For what holds no law.
+    `temperatures` [degC] and `frequencies` [Hz] are the tested ones, every pair. Where they are absent, the band is
+    that of residuals.csv beside the law of a diagnosis, or of a Kelvin chain, or a usual one.
     """
     path = Path(path)
     if path.is_dir():
@@ -280,28 +172,9 @@ def law_of(
     temperatures: tuple[float, ...] | None = None,
     frequencies: tuple[float, ...] | None = None,
 ) -> ExportedLaw:
-    """The law in the content of a file, with the band as `read_law_file` takes it.
+    """The law in the content of a file, with the band as `read_law_file` takes it [degC, Hz].
 
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    content : object
-        Of the file.
-    temperatures : tuple of float, optional
-        The tested ones [degC].
-    frequencies : tuple of float, optional
-        The tested ones [Hz].
-
-    Returns
-    -------
-    ExportedLaw
-        With the band.
-
-    Raises
-    ------
-    InputError
-        For what holds no law, or temperatures of a law of one.
+    Refuses `temperatures` for a law of one temperature.
     """
     kind = content.get("law") if isinstance(content, dict) else None
     known = [*ONE_TEMPERATURE, *LAWS]

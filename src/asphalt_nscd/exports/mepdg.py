@@ -30,24 +30,11 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Table:
-    """|E*| by temperature (rows) and frequency (columns).
+    """|E*| by temperature (rows) and frequency (columns): `modulus` (t, f) [psi].
 
-    Parameters
-    ----------
-    law : ExportedLaw
-        Which it is of.
-    modulus : ndarray (t, f)
-        [psi].
-    outside : list of list of str
-        Words on values beyond the tests.
-    sigmoid : tuple of float
-        delta, alpha, beta, gamma.
-    error_percent : float
-        Largest error of the sigmoid in |E*| [%].
-    log_shift : ndarray (t,)
-        log10 a_T of the temperatures, from 70 degF.
-    spread : ndarray (t, f), or None
-        Factor of the 95 % interval of each modulus, to either side; None where none is known.
+    `outside` holds words on values beyond the tests; `sigmoid` is delta, alpha, beta, gamma, with the largest error
+    `error_percent` in |E*|; `log_shift` (t,) is log10 a_T from 70 degF; `spread` (t, f) is the factor of the 95 %
+    interval to either side, NaN or None where none is known.
     """
 
     law: ExportedLaw
@@ -60,42 +47,13 @@ class Table:
 
 
 def sigmoid(parameters: Vector, log_time: Vector) -> Vector:
-    """log10 |E*| of the sigmoid.
-
-    Parameters
-    ----------
-    parameters : ndarray (4,)
-        delta, alpha, beta, gamma.
-    log_time : ndarray
-        log10 of reduced time [s].
-
-    Returns
-    -------
-    ndarray
-        Of the shape of log_time.
-    """
+    """log10 |E*| of the sigmoid delta, alpha, beta, gamma at log10 of reduced times [s], of the shape of `log_time`."""
     delta, alpha, beta, gamma = parameters
     return delta + alpha / (1.0 + np.exp(beta + gamma * log_time))
 
 
 def make_table(law: ExportedLaw) -> Table:
-    """The table of a law of all temperatures.
-
-    Parameters
-    ----------
-    law : ExportedLaw
-        Of a file.
-
-    Returns
-    -------
-    Table
-        Values of the law, and the sigmoid nearest to them.
-
-    Raises
-    ------
-    InputError
-        For a law of one temperature, or one whose shift is not defined at 70 degF.
-    """
+    """The table of a law and the sigmoid nearest to it; refuses a law of one temperature or no shift at 70 degF."""
     if law.shift is None:
         raise InputError(
             f"{law.path}: a law of one temperature, {law.temperature:g} degC, but this table has five; "
@@ -156,18 +114,7 @@ def _outside_temperature(celsius: float, coldest: float, warmest: float) -> str:
 
 
 def said(table: Table) -> str:
-    """One line on the table.
-
-    Parameters
-    ----------
-    table : Table
-        Of `make_table`.
-
-    Returns
-    -------
-    str
-        How many values are extrapolated, and how well the sigmoid follows.
-    """
+    """One line on the table: how many values are extrapolated, and how well the sigmoid follows."""
     beyond = sum(bool(cell) for row in table.outside for cell in row)
     return (
         f"30 values of |E*| in psi, {beyond} of them extrapolated beyond {table.law.band}; "
@@ -176,18 +123,7 @@ def said(table: Table) -> str:
 
 
 def text(table: Table) -> str:
-    """The table as CSV.
-
-    Parameters
-    ----------
-    table : Table
-        Of `make_table`.
-
-    Returns
-    -------
-    str
-        Lines that begin with # are comment.
-    """
+    """The table as CSV; lines that begin with # are comment."""
     law = table.law
     delta, alpha, beta, gamma = table.sigmoid
     statements = [

@@ -8,18 +8,9 @@ from asphalt_nscd.exports.card import Card
 
 
 def frame(card: Card) -> pd.DataFrame:
-    """The series as a table.
+    """The series as a table of one row a branch, half_95 being half of the 95 % interval.
 
-    Parameters
-    ----------
-    card : Card
-        Law as a Prony series.
-
-    Returns
-    -------
-    DataFrame
-        One row a branch; row 0 is the long-term modulus, whose relaxation time is infinite. half_95: of the
-        interval.
+    Row 0 is the long-term modulus, whose relaxation time is infinite.
     """
     series, units = card.series, card.settings.units
     moduli, half = [series.long_term, *series.moduli], card.half_widths
@@ -37,17 +28,6 @@ def frame(card: Card) -> pd.DataFrame:
 
 
 def text(card: Card) -> str:
-    """The table as CSV.
-
-    Parameters
-    ----------
-    card : Card
-        Law as a Prony series.
-
-    Returns
-    -------
-    str
-        Lines that begin with # are comment.
-    """
+    """The table as CSV; lines that begin with # are comment."""
     table = frame(card).to_csv(index=False, float_format="%.10g", lineterminator="\n")
     return "\n".join(card.comment("#")) + "\n" + table

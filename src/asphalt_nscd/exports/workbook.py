@@ -51,15 +51,7 @@ HEADINGS = {
 
 
 def write(card: Card, path: Path) -> None:
-    """Write the workbook of a card, with what stands beside its law in the folder of a diagnosis.
-
-    Parameters
-    ----------
-    card : Card
-        Law as a Prony series.
-    path : path
-        File to write.
-    """
+    """Write the workbook of a card, with what stands beside its law in the folder of a diagnosis."""
     book = Workbook()
     # openpyxl begins with an empty sheet of its own.
     book.remove(book.worksheets[0])
@@ -99,17 +91,7 @@ def _plots_of(card: Card) -> list[charts.Plot]:
 
 
 def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame], plots: Sequence[charts.Plot] = ()) -> None:
-    """Write tables into the sheets of one workbook, equal whenever it is written.
-
-    Parameters
-    ----------
-    path : path
-        File to write.
-    sheets : mapping of str to DataFrame
-        By the name of the sheet.
-    plots : sequence of charts.Plot
-        Charts of them.
-    """
+    """Write tables, by the names of their sheets, and charts into one workbook, equal whenever it is written."""
     book = Workbook()
     book.remove(book.worksheets[0])
     for title, frame in sheets.items():
@@ -121,18 +103,7 @@ def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame], plots: Sequence
 
 
 def corrected_workbook(folder: Path) -> Path:
-    """Write corrected.xlsx from what a diagnosis left in a folder: tests, what was left out, the mix, its law.
-
-    Parameters
-    ----------
-    folder : path
-        Of the diagnosis.
-
-    Returns
-    -------
-    path
-        The file.
-    """
+    """Write corrected.xlsx from what a diagnosis left in a folder: tests, what was left out, the mix, its law."""
     # A specimen called 01 is not 1.
     tests = pd.read_csv(folder / "corrected.csv", dtype={"specimen": str})
     used = tests["status"] == "used"
@@ -193,20 +164,7 @@ def _plots_of_mix(tests: pd.DataFrame) -> list[charts.Plot]:
 
 
 def plots_of_mixes(curves: pd.DataFrame, sheet: str) -> list[charts.Plot]:
-    """|E*| and phase of each mix over frequency.
-
-    Parameters
-    ----------
-    curves : DataFrame
-        Rows of a mix stand together.
-    sheet : str
-        In which they stand.
-
-    Returns
-    -------
-    list of charts.Plot
-        Two charts.
-    """
+    """Two charts, |E*| and phase of each mix over frequency; rows of a mix must stand together in `curves`."""
     rows = (
         pd.Series(range(2, len(curves) + 2)).groupby(curves["mix"].to_numpy(), sort=False).agg(["min", "max"])
     )

@@ -41,15 +41,7 @@ _AS_CSV = (
 
 @dataclass(frozen=True)
 class Limits:
-    """Closed range in which a value is plausible.
-
-    Parameters
-    ----------
-    low, high : float
-        Its ends.
-    mend : str
-        What to do about a value that is not.
-    """
+    """Closed range in which a value is plausible; `mend` says what to do about one that is not."""
 
     low: float
     high: float
@@ -58,18 +50,10 @@ class Limits:
 
 @dataclass(frozen=True)
 class Table:
-    """A CSV file as text.
+    """A CSV file as text: columns by name.
 
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    columns : dict of str to list of str
-        By name.
-    lines : list of int
-        For each row its line number in the file, from 1.
-    files : list of path, optional
-        The file of each row, where the table was put together from several.
+    `lines` holds for each row its line number in the file, from 1; `files` the file of each row, where the table was
+    put together from several.
     """
 
     path: Path
@@ -78,50 +62,15 @@ class Table:
     files: list[Path] | None = None
 
     def error(self, row: int, problem: str) -> InputError:
-        """What to raise for a row.
-
-        Parameters
-        ----------
-        row : int
-            From 0.
-        problem : str
-            With its mend.
-
-        Returns
-        -------
-        InputError
-            Names the file and the line.
-        """
+        """What to raise for a row, from 0; it names file, line, the problem and its mend."""
         return InputError(f"{self.place(row)}: {problem}")
 
     def place(self, row: int) -> str:
-        """Where a row stands.
-
-        Parameters
-        ----------
-        row : int
-            From 0.
-
-        Returns
-        -------
-        str
-            File and line.
-        """
+        """File and line where a row stands, counted from 0."""
         return f"{self.path if self.files is None else self.files[row]}, line {self.lines[row]}"
 
     def require(self, names: Iterable[str]) -> None:
-        """Refuse the table unless it has all the columns.
-
-        Parameters
-        ----------
-        names : iterable of str
-            Of the columns.
-
-        Raises
-        ------
-        InputError
-            Which says what to rename or add.
-        """
+        """Refuse the table unless it has all the columns, and say what to rename or add."""
         names = list(names)
         for name in names:
             if name in self.columns:
@@ -135,20 +84,7 @@ class Table:
             raise InputError(f"{self.path}: column {lookalike!r} must be {name!r}; {advice} and rename it.")
 
     def lookalike(self, name: str, wanted: Iterable[str] = ()) -> str | None:
-        """Column that holds a quantity under another unit or spelling.
-
-        Parameters
-        ----------
-        name : str
-            Of the quantity.
-        wanted : iterable of str
-            Columns that are not asked about.
-
-        Returns
-        -------
-        str or None
-            Its name, if there is one.
-        """
+        """Column not `wanted` that holds a quantity under another unit or spelling; None if there is none."""
         stem = name.rpartition("_")[0] or name
         for column in self.columns:
             found = _stem_and_unit(column)[0]
@@ -159,22 +95,9 @@ class Table:
         return None
 
     def text(self, name: str) -> list[str]:
-        """A column of non-empty text. It goes into tables that are opened again in spreadsheets.
+        """A column of text, one for each row; refuses an empty field, and one that a spreadsheet takes for a formula.
 
-        Parameters
-        ----------
-        name : str
-            Of the column.
-
-        Returns
-        -------
-        list of str
-            One for each row.
-
-        Raises
-        ------
-        InputError
-            For an empty field, or one that a spreadsheet takes for a formula.
+        It goes into tables that are opened again in spreadsheets.
         """
         for row, value in enumerate(self.columns[name]):
             if not value:
@@ -184,25 +107,7 @@ class Table:
         return self.columns[name]
 
     def numbers(self, name: str, limits: Limits | None = None) -> NDArray[np.float64]:
-        """A column of finite numbers.
-
-        Parameters
-        ----------
-        name : str
-            Of the column.
-        limits : Limits, optional
-            In which they must be.
-
-        Returns
-        -------
-        ndarray
-            (n,) One for each row.
-
-        Raises
-        ------
-        InputError
-            For what is no number, or out of limits.
-        """
+        """A column (n,) of finite numbers, all within `limits`."""
         values = np.array([self._number(name, row) for row in range(len(self.lines))])
         if limits is not None:
             outside = np.flatnonzero((values < limits.low) | (values > limits.high))
@@ -215,23 +120,7 @@ class Table:
         return values
 
     def numbers_or_nan(self, name: str) -> NDArray[np.float64]:
-        """A column that may be absent or have empty fields, which become NaN.
-
-        Parameters
-        ----------
-        name : str
-            Of the column.
-
-        Returns
-        -------
-        ndarray
-            (n,) One for each row.
-
-        Raises
-        ------
-        InputError
-            For what is no number.
-        """
+        """A column (n,) that may be absent or have empty fields, which become NaN."""
         if name not in self.columns:
             return np.full(len(self.lines), np.nan)
         return np.array(
@@ -253,23 +142,7 @@ class Table:
 
 
 def read_csv(path: str | Path) -> Table:
-    """Read a CSV file with one header line; blank lines and lines that begin with # are passed over.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    Table
-        Its text.
-
-    Raises
-    ------
-    InputError
-        For what is no such table; it names the line and the mend.
-    """
+    """Read a CSV file with one header line; blank lines and lines that begin with # are passed over."""
     path = Path(path)
     require_readable(path, "check the path")
     try:
@@ -305,23 +178,7 @@ def read_csv(path: str | Path) -> Table:
 
 
 def plain_number(text: str) -> float:
-    """The number a cell holds.
-
-    Parameters
-    ----------
-    text : str
-        Of the cell.
-
-    Returns
-    -------
-    float
-        Finite or not.
-
-    Raises
-    ------
-    ValueError
-        For none, and for what only Python takes for one, such as `17_715`.
-    """
+    """The number of a cell, finite or not; ValueError for none, or what only Python takes for one, such as `17_715`."""
     if "_" in text or not text.isascii():
         raise ValueError(f"{text!r} is not a number")
     return float(text)

@@ -18,18 +18,7 @@ WHOLE = 64  # characters of a digest that was written to its end
 
 
 def forget(path: Path) -> bool:
-    """Remove the digest of a file that is about to be replaced, which may be another user's.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    bool
-        Whether there was one.
-    """
+    """Remove the digest of a file that is about to be replaced, which may be another user's; whether there was one."""
     beside = _beside(path)
     standing = beside.exists()
     beside.unlink(missing_ok=True)
@@ -37,33 +26,14 @@ def forget(path: Path) -> bool:
 
 
 def keep(path: Path, standing: bool) -> None:
-    """Write down the digest of a result; of other files none, but where one stood: a step repeated by hand.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    standing : bool
-        Whether one stood.
-    """
+    """Write down the digest of a result; of other files only where one stood, since a step was repeated by hand."""
     # HDF5 files hold their digest inside.
     if standing or (is_result(path) and path.suffix != ".h5"):
         _beside(path).write_text(_digest(path) + "\n")
 
 
 def require_unchanged(arguments: Iterable[str]) -> None:
-    """Refuse a result among the arguments of a step that is not what was written.
-
-    Parameters
-    ----------
-    arguments : iterable of str
-        `path` or `kind=path`.
-
-    Raises
-    ------
-    DamagedFile
-        For a file that differs from its digest.
-    """
+    """Refuse a result among the arguments of a step (`path` or `kind=path`) that differs from its digest."""
     for argument in arguments:
         path = Path(argument.rpartition("=")[2])
         if is_result(path) and is_file(path) and is_file(_beside(path)):
@@ -77,18 +47,7 @@ def require_unchanged(arguments: Iterable[str]) -> None:
 
 
 def damaged(folder: str | Path) -> list[DamagedFile]:
-    """What is wrong with tables, figures and pages below a folder, which nothing may ever read again.
-
-    Parameters
-    ----------
-    folder : path
-        Looked through.
-
-    Returns
-    -------
-    list of DamagedFile
-        One for each file.
-    """
+    """One error for each damaged table, figure or page below a folder, which nothing else may ever read again."""
     found = []
     for beside in sorted(Path(folder).rglob(f".*{SUFFIX}")):
         try:
@@ -100,18 +59,7 @@ def damaged(folder: str | Path) -> list[DamagedFile]:
 
 
 def set_aside(error: DamagedFile) -> str:
-    """Move a damaged file out of the way of the workflow, which takes what it finds for good.
-
-    Parameters
-    ----------
-    error : DamagedFile
-        Which names the file.
-
-    Returns
-    -------
-    str
-        The sentence on it.
-    """
+    """Move a damaged file out of the way of the workflow, which would take it for good; the sentence on it."""
     aside = error.path.with_name(f".{error.path.name}.damaged")
     with suppress(FileNotFoundError):  # another job has just done so
         error.path.replace(aside)

@@ -39,15 +39,7 @@ class InputError(Exception):
 
 
 class DamagedFile(InputError):
-    """A result file of ours that cannot be used any more, and can be made again.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    problem : str
-        What is wrong with it.
-    """
+    """A result file of ours that cannot be used any more, and can be made again."""
 
     def __init__(self, path: str | Path, problem: str) -> None:
         super().__init__(f"{path}: {problem}; delete it and run the workflow again.")
@@ -55,38 +47,11 @@ class DamagedFile(InputError):
 
 
 def is_result(path: str | Path) -> bool:
-    """Whether a step of the workflow is running, and this a file that a rule makes.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    bool
-        True then.
-    """
+    """Whether a step of the workflow is running, and this is a file that a rule makes."""
     parts = Path(path).parts
     return bool(os.environ.get(WITHIN_WORKFLOW)) and parts[:1] == (RESULTS,) and parts[1:2] != (PUBLISHED,)
 
 
 def unreadable(path: str | Path, problem: str, mend: str) -> InputError:
-    """What to raise for a file that cannot be read: a user's to mend, or a result of the workflow to be made
-    again.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    problem : str
-        What is wrong with it.
-    mend : str
-        For a user's file.
-
-    Returns
-    -------
-    InputError
-        To raise.
-    """
+    """What to raise for a file that cannot be read: a user's to mend, or a result of the workflow to be made again."""
     return DamagedFile(path, problem) if is_result(path) else InputError(f"{path}: {problem}; {mend}.")

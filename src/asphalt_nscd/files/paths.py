@@ -11,18 +11,7 @@ MOST_BYTES = 100_000_000  # of a text file that is read whole
 
 
 def is_file(path: str | Path) -> bool:
-    """Whether there is such a file.
-
-    Parameters
-    ----------
-    path : path
-        Any text.
-
-    Returns
-    -------
-    bool
-        False too for what cannot be the name of one.
-    """
+    """Whether there is such a file; False too for text that cannot be the name of one."""
     try:
         return Path(path).is_file()
     except (OSError, ValueError):  # too long, or with a null character
@@ -30,20 +19,7 @@ def is_file(path: str | Path) -> bool:
 
 
 def require_readable(path: str | Path, mend: str) -> None:
-    """Refuse what is no file, or too large to be read whole.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    mend : str
-        For the message.
-
-    Raises
-    ------
-    InputError
-        Then.
-    """
+    """Refuse what is no file, or too large to be read whole; `mend` ends the message."""
     if not is_file(path):
         raise InputError(f"{path}: no such file; {mend}.")
     if Path(path).stat().st_size > MOST_BYTES:
@@ -53,15 +29,7 @@ def require_readable(path: str | Path, mend: str) -> None:
 def require_writable(folder: str | Path) -> None:
     """Refuse a folder of results with a file in its place, or with a part into which nothing can be written.
 
-    Parameters
-    ----------
-    folder : path
-        Of the results; it need not exist yet, then the nearest folder above it is asked.
-
-    Raises
-    ------
-    InputError
-        For a file in its place, and for a folder, above or within it, that cannot be written to.
+    It need not exist yet; then the nearest folder above it is asked.
     """
     folder = Path(folder)
     standing = next(place for place in (folder, *folder.parents) if place.exists())
@@ -73,25 +41,7 @@ def require_writable(folder: str | Path) -> None:
 
 
 def inside(folder: Path, name: str) -> Path:
-    """A file in a folder.
-
-    Parameters
-    ----------
-    folder : path
-        Which must hold it.
-    name : str
-        Of the file, any text.
-
-    Returns
-    -------
-    path
-        Its path.
-
-    Raises
-    ------
-    InputError
-        Where the name leads out of the folder.
-    """
+    """Path of a file in a folder, by any text as its name; refuses a name that leads out of the folder."""
     path = folder / name
     try:
         # Resolved, so that neither `..` nor a link leads out of the folder.

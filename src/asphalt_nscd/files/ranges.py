@@ -15,21 +15,8 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Range:
-    """Finite numbers between limits.
+    """Finite numbers between limits; `above` and `below` are excluded, `low` and `high` included.
 
-    Parameters
-    ----------
-    above : float
-        Excluded itself.
-    low : float
-        Included.
-    below : float
-        Excluded itself.
-    high : float
-        Included.
-
-    Examples
-    --------
     >>> str(Range(above=0.0, high=60.0)), Range(above=0.0).holds(float("inf"))
     ('greater than 0 and at most 60', False)
     """
@@ -40,18 +27,7 @@ class Range:
     high: float = math.inf
 
     def holds(self, number: float) -> bool:
-        """Whether a number is one of them.
-
-        Parameters
-        ----------
-        number : float
-            Any.
-
-        Returns
-        -------
-        bool
-            False for what is not finite.
-        """
+        """Whether a number is one of them; False for what is not finite."""
         return math.isfinite(number) and self.above < number < self.below and self.low <= number <= self.high
 
     def __str__(self) -> str:
@@ -66,41 +42,16 @@ class Range:
 
 
 def within(default: T, name: str = "", **limits: float) -> T:
-    """A field whose values are in a `Range`.
+    """A field of a class that inherits `Ranged`, whose values are in a `Range` with these limits.
 
-    Parameters
-    ----------
-    default : T
-        Of the field.
-    name : str
-        With its unit, how a sentence calls it; else that of the field.
-    **limits : float
-        Of the `Range`.
-
-    Returns
-    -------
-    dataclasses.Field
-        For a class that inherits `Ranged`.
+    `name` is how a sentence calls it, with its unit; else that of the field.
     """
     made: Any = field(default=default, metadata={"name": name, "range": Range(**limits)})
     return made
 
 
 def one_of(default: T, choices: Sequence[T]) -> T:
-    """A field whose value is one of some.
-
-    Parameters
-    ----------
-    default : T
-        Of the field.
-    choices : sequence of T
-        Which are allowed.
-
-    Returns
-    -------
-    dataclasses.Field
-        For a class that inherits `Ranged`.
-    """
+    """A field of a class that inherits `Ranged`, whose value is one of some."""
     made: Any = field(default=default, metadata={"choices": choices})
     return made
 

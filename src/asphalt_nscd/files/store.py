@@ -31,23 +31,7 @@ _PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matpl
 
 @contextmanager
 def atomic_path(path: str | Path) -> Iterator[Path]:
-    """A temporary path, moved into place only when the block succeeds.
-
-    Parameters
-    ----------
-    path : path
-        Of the file to write.
-
-    Yields
-    ------
-    Path
-        Beside `path`.
-
-    Raises
-    ------
-    InputError
-        For what is no regular file.
-    """
+    """A temporary path beside `path`, moved there only when the block succeeds; `path` is new or a regular file."""
     path = Path(path)
     if path.exists() and not path.is_file():
         raise InputError(f"{path}: not a regular file, so it is not replaced; choose another path.")
@@ -77,52 +61,20 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
 
 
 def write_table(path: str | Path, frame: pd.DataFrame) -> None:
-    """Write a CSV table; column names carry the units.
-
-    Parameters
-    ----------
-    path : path
-        File to write.
-    frame : DataFrame
-        The table.
-    """
+    """Write a CSV table; column names carry the units."""
     with atomic_path(path) as temporary:
         # Line ends of one kind, so that equal tables have equal checksums on any system.
         frame.to_csv(temporary, index=False, float_format="%.10g", lineterminator="\n")
 
 
 def write_json(path: str | Path, content: Any) -> None:
-    """Write indented JSON.
-
-    Parameters
-    ----------
-    path : path
-        File to write.
-    content : object
-        What JSON can hold.
-    """
+    """Write indented JSON."""
     with atomic_path(path) as temporary:
         temporary.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
 
 
 def read_json(path: str | Path) -> Any:
-    """Read JSON.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    object
-        Its content.
-
-    Raises
-    ------
-    InputError
-        Which names the file, when it cannot be parsed.
-    """
+    """Read JSON; the error names a file that cannot be parsed."""
     require_readable(path, "run the rule that makes it, or check the path")
     try:
         return json.loads(Path(path).read_text(encoding="utf-8"))
@@ -132,17 +84,7 @@ def read_json(path: str | Path) -> Any:
 
 @dataclass(frozen=True)
 class Record:
-    """Content of one result file.
-
-    Parameters
-    ----------
-    arrays : dict of str to ndarray
-        By name.
-    attributes : dict
-        By name.
-    digest : str
-        Of kind, arrays and attributes.
-    """
+    """Arrays and attributes of one result file, by name, and the digest of kind, arrays and attributes."""
 
     arrays: dict[str, np.ndarray]
     attributes: dict[str, Any]
@@ -155,27 +97,11 @@ def save(
     arrays: Mapping[str, np.ndarray],
     attributes: Mapping[str, float | int | str],
 ) -> str:
-    """Write one HDF5 result file.
+    """Write one HDF5 result file; array names may contain slashes (groups). Returns the digest of its content.
 
-    The digest of all arrays and attributes is kept in the file, so that a truncated or altered one is refused
-    by `load`. Provenance (versions, commit) stays outside the digest: it may differ between two machines with
-    equal results.
-
-    Parameters
-    ----------
-    path : path
-        File to write.
-    kind : str
-        Of the file.
-    arrays : mapping of str to ndarray
-        By name, which may contain slashes (groups).
-    attributes : mapping
-        By name.
-
-    Returns
-    -------
-    str
-        The digest of its content.
+    The digest of all arrays and attributes is kept in the file, so that a truncated or altered one is refused by
+    `load`. Provenance (versions, commit) stays outside the digest: it may differ between two machines with equal
+    results.
     """
     import h5py
     import numpy as np
@@ -197,27 +123,7 @@ def save(
 
 
 def load(path: str | Path, kind: str) -> Record:
-    """Read one HDF5 result file.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    kind : str
-        That it must be of.
-
-    Returns
-    -------
-    Record
-        Its content.
-
-    Raises
-    ------
-    InputError
-        For a file that is missing, or of another kind.
-    DamagedFile
-        For another format or damaged content.
-    """
+    """Read one HDF5 result file of a kind; DamagedFile for another format or damaged content."""
     import h5py
 
     if not Path(path).is_file():
@@ -255,23 +161,7 @@ def load(path: str | Path, kind: str) -> Record:
 
 
 def kind_of(path: str | Path) -> str:
-    """Kind of a result file, without reading its arrays.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    str
-        As `save` took it.
-
-    Raises
-    ------
-    InputError
-        For a file that is missing or damaged.
-    """
+    """Kind of a result file as `save` took it, without reading its arrays."""
     import h5py
 
     if not Path(path).is_file():

@@ -8,18 +8,6 @@ from collections.abc import Sequence
 def specimen_named(name: str) -> str:
     """A specimen by its name, without saying the word twice.
 
-    Parameters
-    ----------
-    name : str
-        Of the specimen.
-
-    Returns
-    -------
-    str
-        For a sentence.
-
-    Examples
-    --------
     >>> specimen_named("A3"), specimen_named("Specimen 1")
     ('specimen A3', 'Specimen 1')
     """
@@ -29,20 +17,6 @@ def specimen_named(name: str) -> str:
 def counted(number: int, word: str) -> str:
     """A number with its word, in the plural but for one.
 
-    Parameters
-    ----------
-    number : int
-        Of things.
-    word : str
-        Of one thing.
-
-    Returns
-    -------
-    str
-        For a sentence.
-
-    Examples
-    --------
     >>> counted(1, "sphere"), counted(14160, "sphere")
     ('1 sphere', '14160 spheres')
     """
@@ -50,22 +24,8 @@ def counted(number: int, word: str) -> str:
 
 
 def joined(words: Sequence[str], last: str = "and") -> str:
-    """Words in a list.
+    """Words in a list, with `last` before the last one.
 
-    Parameters
-    ----------
-    words : sequence of str
-        At least one.
-    last : str
-        Before the last one.
-
-    Returns
-    -------
-    str
-        For a sentence.
-
-    Examples
-    --------
     >>> joined(["a", "b", "c"]), joined(["a", "b"], "or"), joined(["a"])
     ('a, b and c', 'a or b', 'a')
     """

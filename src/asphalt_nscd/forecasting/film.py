@@ -55,15 +55,7 @@ SPOT = 3.3  # depth of grain under a spot over sqrt(r^2 + 3/4 a h) and 1 - nu^2,
 
 @dataclass(frozen=True)
 class Solid:
-    """An isotropic elastic solid.
-
-    Parameters
-    ----------
-    modulus : float
-        E [Pa].
-    poisson : float
-        Poisson's ratio.
-    """
+    """An isotropic elastic solid: Young's modulus E [Pa] and Poisson's ratio."""
 
     modulus: float
     poisson: float
@@ -83,16 +75,7 @@ class Solid:
 class Films:
     """Two spheres, the gap between them and the facet between their cells; one row each.
 
-    Parameters
-    ----------
-    first_radius : ndarray (b,)
-        [m].
-    second_radius : ndarray (b,)
-        [m]; 0 for a rigid plane.
-    gap : ndarray (b,)
-        [m], positive.
-    area : ndarray (b,)
-        Of the facet [m2].
+    Radii (b,) and positive `gap` (b,) in m, `area` (b,) of the facet in m2; `second_radius` is 0 for a rigid plane.
     """
 
     first_radius: np.ndarray
@@ -112,15 +95,7 @@ class Films:
 
 @dataclass(frozen=True)
 class Matrix:
-    """What is between the grains.
-
-    Parameters
-    ----------
-    modulus : ndarray (...)
-        E [Pa], real or complex: as many as are asked for.
-    bulk : ndarray (...) or float
-        K [Pa].
-    """
+    """What is between the grains: E (...), real or complex, as many as are asked for, and K (...) [Pa]."""
 
     modulus: np.ndarray
     bulk: np.ndarray | float
@@ -135,27 +110,10 @@ class Matrix:
 def film_stiffness(
     films: Films, grain: Solid, matrix: Matrix, solid_fraction: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness of the bonds of a network that has the mix's Young's modulus.
+    """Normal and tangential stiffness (..., b) [N/m] of the bonds of a network that has the mix's Young's modulus.
 
-    The tangential opening is that of the surfaces, rotations of the spheres included.
-
-    Parameters
-    ----------
-    films : Films
-        Pairs of spheres.
-    grain : Solid
-        The solid of the grains.
-    matrix : ndarray
-        Between the grains.
-    solid_fraction : float
-        Volume of grains in a volume of grains and matrix.
-
-    Returns
-    -------
-    ndarray (..., b)
-        Normal stiffness [N/m].
-    ndarray (..., b)
-        Tangential stiffness [N/m].
+    The tangential opening is that of the surfaces, rotations of the spheres included. `solid_fraction` is the volume of
+    grains in a volume of grains and matrix.
     """
     normal, tangential = deviatoric_stiffness(films, grain, matrix)
     scale = _young(films, bulk_modulus(grain, matrix, solid_fraction), normal, tangential)[..., None]
@@ -163,21 +121,9 @@ def film_stiffness(
 
 
 def bulk_modulus(grain: Solid, matrix: Matrix, solid_fraction: float) -> np.ndarray:
-    """K of the mix: the lower bound of Hashin & Shtrikman (1963), where bitumen flows the value itself.
+    """K (...) [Pa] of the mix: the lower bound of Hashin & Shtrikman (1963), where bitumen flows the value itself.
 
-    Parameters
-    ----------
-    grain : Solid
-        The solid of the grains.
-    matrix : ndarray
-        Between the grains.
-    solid_fraction : float
-        Volume of grains in a volume of grains and matrix.
-
-    Returns
-    -------
-    ndarray (...)
-        [Pa].
+    `solid_fraction` is the volume of grains in a volume of grains and matrix.
     """
     bulk, stiffer = np.asarray(matrix.bulk), grain.bulk - np.asarray(matrix.bulk)
     share = 3.0 * (1.0 - solid_fraction) / (3.0 * bulk + 4.0 * matrix.shear)
@@ -187,25 +133,9 @@ def bulk_modulus(grain: Solid, matrix: Matrix, solid_fraction: float) -> np.ndar
 def deviatoric_stiffness(
     films: Films, grain: Solid, matrix: Matrix, rings: int = RINGS
 ) -> tuple[np.ndarray, np.ndarray]:
-    """The same of a network that has the mix's shear modulus; one material: k = 2 G A / l.
+    """As `film_stiffness`, of a network that has the mix's shear modulus; one material: k = 2 G A / l.
 
-    Parameters
-    ----------
-    films : Films
-        Pairs of spheres.
-    grain : Solid
-        The solid of the grains.
-    matrix : ndarray
-        Between the grains.
-    rings : int
-        Into which a facet is divided.
-
-    Returns
-    -------
-    ndarray (..., b)
-        Normal stiffness [N/m].
-    ndarray (..., b)
-        Tangential stiffness [N/m].
+    `rings` is into how many rings a facet is divided.
     """
     return pair_stiffness(films, grain, matrix, (2.0 * matrix.shear, 2.0 * grain.shear), rings)
 
@@ -213,27 +143,10 @@ def deviatoric_stiffness(
 def pair_stiffness(
     films: Films, grain: Solid, matrix: Matrix, along: tuple[np.ndarray, float], rings: int = RINGS
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Stiffness of pairs by lines, pressure, yielding grains and shear, as the head of this module says.
+    """Normal and tangential stiffness (..., b) [N/m] of pairs by lines, pressure, yielding grains and shear.
 
-    Parameters
-    ----------
-    films : Films
-        Pairs of spheres.
-    grain : Solid
-        The solid of the grains.
-    matrix : ndarray
-        Between the grains.
-    along : tuple of ndarray (...) and float
-        Moduli D of film and grain along a line [Pa], 2 G where the volume is kept.
-    rings : int
-        Into which a facet is divided.
-
-    Returns
-    -------
-    ndarray (..., b)
-        Normal stiffness [N/m].
-    ndarray (..., b)
-        Tangential stiffness [N/m].
+    The head of this module says how. `along` holds the moduli D of film (...) and grain along a line [Pa], 2 G where
+    the volume is kept; `rings` is into how many rings a facet is divided.
     """
     shear, bulk, stretch = np.broadcast_arrays(matrix.shear, matrix.bulk, along[0])
     kind = np.result_type(shear, bulk, stretch, np.float64)

@@ -22,27 +22,12 @@ Packings = Callable[[Level, int], LevelPacking]
 
 @dataclass(frozen=True)
 class Settings:
-    """What the forecast takes for granted: stated, not fitted (docs/forecast.md says why, and from where). The
-    switches take a part of the physics away.
+    """What the forecast takes for granted: stated, not fitted (docs/forecast.md says why, and from where).
 
-    Parameters
-    ----------
-    film_factor : float
-        Film between touching grains over the mean binder film.
-    touching_voids : float
-        Air voids at which the stones touch, of the volume; each percent more sets them apart.
-    skeleton_pressure : float
-        Holds dry contacts together when the binder has relaxed [Pa].
-    binder_bulk : float
-        K of the binder [Pa].
-    cuts : tuple of float
-        Sizes between the levels [m].
-    squeezed : bool
-        Whether the matrix is nearly incompressible.
-    touching : bool
-        Whether the grains of coarse levels touch.
-    voids : bool
-        Whether air takes films away.
+    `film_factor`: film between touching grains over the mean binder film; `touching_voids`: air voids, of the volume,
+    at which the stones touch, each percent more sets them apart; `skeleton_pressure` [Pa] holds dry contacts together
+    when the binder has relaxed; `binder_bulk`: K [Pa]; `cuts`: sizes between the levels [m]. The switches take physics
+    away: the matrix nearly incompressible, grains of coarse levels that touch, films taken away by air.
     """
 
     film_factor: float = 1.0
@@ -64,20 +49,9 @@ MODEL = complex(np.log(1.42), np.radians(7.1))
 
 @dataclass(frozen=True)
 class LevelResult:
-    """A level of a forecast, its packing, and its map.
+    """A level of a forecast, its packing, and its map from the modulus of its matrix to its own.
 
-    Parameters
-    ----------
-    level : Level
-        Sizes and fraction of its grains.
-    packing : LevelPacking
-        Spheres at rest.
-    grains : int
-        In the prism that is pulled.
-    map : StaticMap
-        From the modulus of its matrix to its own.
-    matrix_bulk : float
-        K of its matrix [Pa].
+    `grains` counts those in the prism that is pulled; `matrix_bulk` is K of its matrix [Pa].
     """
 
     level: Level
@@ -89,21 +63,10 @@ class LevelResult:
 
 @dataclass(frozen=True)
 class Forecast:
-    """E* of the mix at the points of its recipe, and how it came about.
+    """E* (n,) [Pa] of the mix at the points of its recipe, and how it came about.
 
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-    settings : Settings
-        What is taken for granted.
-    packed : tuple of tuple of LevelResult
-        The levels, for each seed.
-    modulus : ndarray of complex (n,)
-        E* [Pa].
-    deviation : dict of str to ndarray of complex (n,)
-        Change of ln E* by each doubt, its real part of |E*| and its imaginary part of the phase; `packing` is
-        half the range over the seeds.
+    `packed` holds the levels for each seed; `deviation` (n,) the change of ln E* by each doubt, its real part of |E*|
+    and its imaginary part of the phase; `packing` in it is half the range over the seeds.
     """
 
     recipe: Recipe
@@ -118,38 +81,16 @@ class Forecast:
         return self.packed[0]
 
     def modulus_at(self, omega: np.ndarray, temperature: float) -> np.ndarray:
-        """E* of the mix at one temperature.
-
-        Parameters
-        ----------
-        omega : ndarray (n,)
-            Angular frequencies [rad/s].
-        temperature : float
-            [degC].
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            [Pa].
-        """
+        """E* of the mix (n,) [Pa] at angular frequencies `omega` (n,) [rad/s] and one temperature [degC]."""
         binder = self.recipe.binder.complex_modulus(omega, temperature)
         logs = [np.log(modulus_of(levels, self.recipe.aggregate, binder)) for levels in self.packed]
         return np.exp(np.mean(logs, axis=0))
 
     def band(self, model: complex) -> np.ndarray:
-        """Half width of the band.
+        """Half width (n,) of the band of ln|E*| and, imaginary, of the phase [rad].
 
-        Root of the sum of squares of all deviations and of twice the model's own.
-
-        Parameters
-        ----------
-        model : complex
-            Root mean square of the model's own error of ln|E*| and, imaginary, of the phase [rad].
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            Of ln|E*| and, imaginary, of the phase [rad].
+        Root of the sum of squares of all deviations and of twice `model`, the root mean square of the model's own error
+        of ln|E*| and, imaginary, of the phase [rad].
         """
         parts = np.array([*self.deviation.values()]).reshape(-1, self.modulus.size)
         # Twice the error of the model; the sizes of the doubts are about two standard deviations already.
@@ -159,13 +100,7 @@ class Forecast:
 
 
 class Networks:
-    """The packing of each level and seed, and the maps that were solved with them, each once.
-
-    Parameters
-    ----------
-    packings : callable
-        Gives the packing of a level and a seed.
-    """
+    """The packing of each level and seed, and the maps that were solved with them, each once."""
 
     def __init__(self, packings: Packings) -> None:
         self._packings = packings
@@ -173,22 +108,7 @@ class Networks:
         self._maps: dict[tuple, StaticMap] = {}
 
     def chain(self, recipe: Recipe, settings: Settings, seed: int) -> tuple[LevelResult, ...]:
-        """All levels, the finest first; what leaves one is the matrix of the next.
-
-        Parameters
-        ----------
-        recipe : Recipe
-            What the mix is made of.
-        settings : Settings
-            What is taken for granted.
-        seed : int
-            Of the packings.
-
-        Returns
-        -------
-        tuple of LevelResult
-            One result for each level.
-        """
+        """All levels, the finest first; what leaves one is the matrix of the next."""
         bulk, results = settings.binder_bulk, []
         found = levels_of(recipe, settings.cuts)
         for level in found:
@@ -227,26 +147,7 @@ def forecast(
     seeds: tuple[int, ...] = (1, 2),
     progress: Callable[[str, float, float], None] = lambda stage, done, total: None,
 ) -> Forecast:
-    """E* of the mix of a recipe: the geometric mean over packings of some seeds, with the doubts of the first.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-    networks : Networks
-        Packings and maps.
-    settings : Settings
-        What is taken for granted.
-    seeds : tuple of int
-        Of the packings.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    Forecast
-        At the points of the recipe.
-    """
+    """E* of the mix of a recipe: the geometric mean over packings of some seeds, with the doubts of the first."""
     doubts = _doubted(recipe, settings)
     stages, runs, made = len(seeds) + len(doubts), [], []
     for k, seed in enumerate(seeds):
@@ -268,22 +169,7 @@ def forecast(
 def physics_of(recipe: Recipe, settings: Settings, level: Level, last: bool) -> Physics:
     """What a level's films and contacts do; air voids and the dry skeleton belong to the coarsest, `last`.
 
-    Parameters
-    ----------
-    recipe : Recipe
-        Air voids and film thickness of the mix.
-    settings : Settings
-        Which parts of the physics take part, and their constants.
-    level : Level
-        Whose grains they are; films are thin only where its grains touch.
-    last : bool
-        Whether it is the coarsest.
-
-    Returns
-    -------
-    Physics
-        Film [m], loosening (linear strain), share of facets that are voids, pressure of the skeleton
-        [Pa].
+    Films are thin only where the grains of the level touch.
     """
     touching = settings.touching and level.touching
     voids = recipe.voids if settings.voids and last else 0.0
@@ -299,22 +185,7 @@ def physics_of(recipe: Recipe, settings: Settings, level: Level, last: bool) -> 
 
 
 def modulus_of(levels: tuple[LevelResult, ...], aggregate: Solid, binder: np.ndarray) -> np.ndarray:
-    """E* of the mix for E* of the binder.
-
-    Parameters
-    ----------
-    levels : tuple of LevelResult
-        From the finest up.
-    aggregate : Solid
-        The solid of the grains.
-    binder : ndarray of complex (n,)
-        E* [Pa].
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        [Pa].
-    """
+    """E* of the mix (n,) [Pa] for E* of the binder (n,) [Pa]; `levels` from the finest up."""
     ratio = binder / aggregate.modulus
     for result in levels:
         ratio = result.map(ratio)
@@ -344,20 +215,7 @@ def _half_range(logs: np.ndarray) -> np.ndarray:
 
 
 def kept_in(folder: str | Path, progress: Callable[[str, float, float], None] | None = None) -> Packings:
-    """Packings in a folder, poured where they are missing.
-
-    Parameters
-    ----------
-    folder : path
-        Of the packings; made where it does not exist.
-    progress : callable, optional
-        progress(stage, done, total).
-
-    Returns
-    -------
-    callable
-        Gives the packing of a level and a seed.
-    """
+    """Packings in a folder, by level and seed, poured where they are missing; makes the folder."""
     Path(folder).mkdir(parents=True, exist_ok=True)
 
     def packing(level: Level, seed: int) -> LevelPacking:

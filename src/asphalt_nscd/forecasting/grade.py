@@ -27,38 +27,18 @@ FREQUENCIES = (3.0, 6.0, 10.0)  # Hz of the paper, of a time of loading 1 / omeg
 
 
 def softening_point(penetration: float) -> float:
-    """Ring and ball of the binder in the mix (Ullidtz & Larsen 1983). Mixing leaves 0.65 of its penetration.
+    """Ring and ball [degC] of the binder in the mix, 98.4 - 26.4 log10(0.65 penetration) (Ullidtz & Larsen 1983).
 
-    Parameters
-    ----------
-    penetration : float
-        Before mixing [0.1 mm].
-
-    Returns
-    -------
-    float
-        98.4 - 26.4 log10(0.65 penetration) [degC].
+    `penetration` is that before mixing [0.1 mm], of which mixing leaves 0.65.
     """
     # Mixing hardens a binder: 0.65 of its penetration is left.
     return 98.4 - 26.4 * float(np.log10(0.65 * penetration))
 
 
 def stiffness(penetration: float, temperature: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    """E* of the binder in the mix (Ullidtz & Larsen 1983).
+    """E* of the binder in the mix (Ullidtz & Larsen 1983), complex (n,) [Pa]; NaN where none is known.
 
-    Parameters
-    ----------
-    penetration : float
-        Before mixing [0.1 mm].
-    temperature : ndarray (n,)
-        [degC].
-    omega : ndarray (n,)
-        Angular frequencies [rad/s].
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        [Pa]; NaN where none is known.
+    `penetration` before mixing [0.1 mm], `temperature` (n,) [degC], `omega` (n,) [rad/s].
     """
     log = np.log10(penetration)
     index = (27.0 * log - 21.65) / (76.35 * log - 232.82)
@@ -75,26 +55,10 @@ def compare_paper(
     networks: Networks,
     progress: Callable[[str, float, float], None],
 ) -> pd.DataFrame:
-    """The paper's mix forecast from the grade of its binder. All else is that of the recipe: the paper gives
-    neither binder content nor air voids nor densities.
+    """The paper's mix forecast from the grade of its binder, beside Table 3: |E*| [MPa] and phase of each point.
 
-    Parameters
-    ----------
-    grading : path
-        CSV of diameter_mm, passing_percent.
-    laws : path
-        CSV as Table 3.
-    recipe : Recipe
-        What the mix is made of otherwise.
-    networks : Networks
-        Packings and maps.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    DataFrame
-        A row for each temperature and frequency: |E*| [MPa] and phase of Table 3, and forecast.
+    All else is that of the recipe: the paper gives neither binder content nor air voids nor densities. `grading` is a
+    CSV of diameter_mm, passing_percent; `laws` a CSV as Table 3.
     """
     table = read_csv(grading)
     table.require(["diameter_mm", "passing_percent"])

@@ -30,20 +30,10 @@ SURFACE_OF_ALL = 0.41
 
 @dataclass(frozen=True, eq=False)
 class Level:
-    """Grains between two sizes in a matrix of everything finer.
+    """Grains between two sizes [m] in a matrix of everything finer.
 
-    Parameters
-    ----------
-    name : str
-        Of the level.
-    smallest, largest : float
-        Size of its grains [m].
-    fraction : float
-        Volume of its grains over that of grains and matrix, without air.
-    diameter : ndarray (c,)
-        Classes of the packing [m].
-    share : ndarray (c,)
-        Of the volume of the packing.
+    `fraction` is the volume of its grains over that of grains and matrix, without air; `diameter` (c,) [m] are the
+    classes of the packing and `share` (c,) theirs of its volume.
     """
 
     name: str
@@ -60,24 +50,9 @@ class Level:
 
 
 def levels_of(recipe: Recipe, cuts: tuple[float, ...] = CUTS) -> list[Level]:
-    """Levels of a recipe from the finest up.
+    """Levels of a recipe from the finest up, cut at sizes [m]; levels without grains are left out.
 
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-    cuts : tuple of float
-        Between the levels [m]; levels without grains are left out.
-
-    Returns
-    -------
-    list of Level
-        At least one.
-
-    Raises
-    ------
-    InputError
-        For a level with more grains than a packing can hold.
+    Refuses a level with more grains than a packing can hold.
     """
     grading = recipe.grading
     edges = np.array([0.0, *cuts, np.inf])
@@ -117,18 +92,7 @@ def _level(name: str, low: float, high: float, fraction: float, recipe: Recipe) 
 
 
 def film_thickness(recipe: Recipe) -> float:
-    """Mean thickness of the binder on the grains: its volume over the surface of the aggregate (Hveem).
-
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-
-    Returns
-    -------
-    float
-        [m].
-    """
+    """Mean thickness of the binder on the grains [m]: its volume over the surface of the aggregate (Hveem)."""
     surface = SURFACE_OF_ALL + sum(
         factor * float(recipe.grading.passing_at(sieve * 1e-3)) for sieve, factor in SURFACE.items()
     )

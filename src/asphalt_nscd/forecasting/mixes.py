@@ -59,41 +59,12 @@ class Pair:
         return self.mix.complex_modulus(self.omega, self.recipe.temperature)
 
     def binder(self, decades: float = 0.0) -> np.ndarray:
-        """Modulus of the binder at the points of the recipe.
-
-        Parameters
-        ----------
-        decades : float
-            Frequencies are raised by so many: above zero the binder is stiffer than the recovered one.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* [Pa].
-        """
+        """E* of the binder (n,) [Pa], frequencies raised by `decades`: above 0 it is stiffer than the recovered one."""
         return self.recipe.binder.complex_modulus(self.omega * 10.0**decades, self.recipe.temperature)
 
 
 def read_pairs(table: str | Path, recipe: Recipe) -> list[Pair]:
-    """Mixes whose binder was measured too; the recipe gives all else.
-
-    Parameters
-    ----------
-    table : path
-        CSV with a row for binder and mix of each state.
-    recipe : Recipe
-        What they share.
-
-    Returns
-    -------
-    list of Pair
-        One for each state.
-
-    Raises
-    ------
-    InputError
-        For a row that is no law.
-    """
+    """Mixes whose binder was measured too, one for each state of the table; the recipe gives all else."""
     rows = read_csv(table)
     rows.require(["ageing_state", "level", *(column for column, _ in COLUMNS.values())])
     laws: dict[tuple[str, str], TwoS2P1D] = {}
@@ -113,18 +84,7 @@ def read_pairs(table: str | Path, recipe: Recipe) -> list[Pair]:
 
 
 def rungs(settings: Settings) -> Iterator[tuple[str, Settings]]:
-    """What the forecast gains with each part of its physics, and loses without it.
-
-    Parameters
-    ----------
-    settings : Settings
-        With all parts.
-
-    Yields
-    ------
-    tuple of str and Settings
-        Name and settings of each.
-    """
+    """Name and settings of each rung: what the forecast gains with each part of its physics, and loses without it."""
     bare = replace(settings, squeezed=False, touching=False, voids=False, skeleton_pressure=0.0)
     yield "levels", bare
     yield "+ squeezed films", replace(bare, squeezed=True)
@@ -141,24 +101,9 @@ def rungs(settings: Settings) -> Iterator[tuple[str, Settings]]:
 def compare(
     pairs: list[Pair], networks: Networks, progress: Callable[[str, float, float], None]
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Each rung and rival against the measured mixes.
+    """Errors of each rung and rival against each measured mix, and the points of the last rungs.
 
-    Parameters
-    ----------
-    pairs : list of Pair
-        Of `read_pairs`.
-    networks : Networks
-        Packings and maps.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    DataFrame
-        Errors for each mix: factor_rms is exp of the root mean square of ln(|E*| / measured), phase_rms_deg
-        that of the phase.
-    DataFrame
-        Points of the last rungs.
+    factor_rms is exp of the root mean square of ln(|E*| / measured), phase_rms_deg that of the phase.
     """
     recipe, settings = pairs[0].recipe, Settings()
     made: dict[str, tuple[str, int, Callable[[Pair], np.ndarray]]] = {}
@@ -255,28 +200,11 @@ class Calibrated:
 def calibrated(
     pair: Pair, settings: Settings, networks: Networks, shifted: bool = False
 ) -> tuple[Calibrated, tuple[LevelResult, ...]]:
-    """Two inputs set on one mix: those that the source leaves open, or, shifted, the binder in the mix for the first.
+    """Two inputs set on one mix: those that the source leaves open, or, `shifted`, the binder in the mix for the first.
 
-    The pressure is the best of PRESSURES; with each the modulus is fitted to the maps of the usual one, since they
-    know ratios of moduli alone, but for the bulk modulus of the binder. The best is solved anew.
-
-    Parameters
-    ----------
-    pair : Pair
-        The mix that they are set on.
-    settings : Settings
-        Whose skeleton pressure is replaced.
-    networks : Networks
-        Packings and maps.
-    shifted : bool
-        Set the binder's frequencies in place of the modulus of the aggregate.
-
-    Returns
-    -------
-    Calibrated
-        Recipe and settings with what was found, and the decades of the shift, at most one up or down.
-    tuple of LevelResult
-        Levels of the forecast with these.
+    The pressure is the best of PRESSURES; with each the modulus is fitted to the maps of the usual one, since they know
+    ratios of moduli alone, but for the bulk modulus of the binder. The best is solved anew. `shifted` sets the binder's
+    frequencies in place of the modulus of the aggregate, by at most one decade up or down.
     """
     usual = pair.recipe.aggregate.modulus
 
@@ -304,21 +232,9 @@ def calibrated(
 
 
 def binder_shift(pair: Pair, levels: tuple[LevelResult, ...], recipe: Recipe) -> float:
-    """Decades by which the binder's frequencies must be raised for the forecast to meet one mix best.
+    """Decades, -3 to 3, by which to raise the binder's frequencies so that the forecast meets one mix best.
 
-    Parameters
-    ----------
-    pair : Pair
-        The mix to be met.
-    levels : tuple of LevelResult
-        Of the forecast, from fine to coarse.
-    recipe : Recipe
-        Of the aggregate.
-
-    Returns
-    -------
-    float
-        Of least squares of ln E*, between -3 and 3.
+    By least squares of ln E*; `levels` from fine to coarse.
     """
 
     def off(decades: float) -> float:
@@ -329,20 +245,10 @@ def binder_shift(pair: Pair, levels: tuple[LevelResult, ...], recipe: Recipe) ->
 
 
 def best_map(pairs: list[Pair]) -> np.ndarray:
-    """Weights of the Stieltjes function of the binder's modulus that comes nearest to all mixes of one recipe.
+    """Weights (35,) of the Stieltjes function of the binder's modulus that comes nearest to all mixes of one recipe.
 
+    They are not negative: of a constant, of the modulus x itself, and of x / (1 + x / pole) for each pole in ANY_MAP.
     No forecast that knows the recipe and the binder alone can come much nearer: it is one such function.
-
-    Parameters
-    ----------
-    pairs : list of Pair
-        Mixes of one recipe, at its points.
-
-    Returns
-    -------
-    ndarray (35,)
-        Not negative: of a constant, of the modulus x itself, and of x / (1 + x / pole) for each pole in
-        ANY_MAP.
     """
     basis = np.vstack([_any_map(pair.binder()) for pair in pairs])
     measured = np.concatenate([pair.measured for pair in pairs])
@@ -369,22 +275,10 @@ def _any_map(binder: np.ndarray) -> np.ndarray:
 
 
 def bands(pairs: list[Pair], networks: Networks) -> pd.DataFrame:
-    """What the band of a forecast holds of each mix, its share for the model's own error taken from the others
-    alone.
+    """What the band of a forecast holds of each mix, its share for the model's own error taken from the others alone.
 
-    Parameters
-    ----------
-    pairs : list of Pair
-        Of `read_pairs`.
-    networks : Networks
-        Packings and maps.
-
-    Returns
-    -------
-    DataFrame
-        A row for each mix: deviation_E of ln|E*| and deviation_phase_deg, root mean squares of the others;
-        shares of its points that lie in the band of stated doubts, and in that with these deviations
-        (`Forecast.band`).
+    Per mix: deviation_E of ln|E*| and deviation_phase_deg, root mean squares of the others; shares of its points that
+    lie in the band of stated doubts, and in that with these deviations (`Forecast.band`).
     """
     made = {pair.name: forecast(pair.recipe, networks, seeds=(1,)) for pair in pairs}
     off = {pair.name: np.log(made[pair.name].modulus / pair.measured) for pair in pairs}
@@ -402,18 +296,7 @@ def bands(pairs: list[Pair], networks: Networks) -> pd.DataFrame:
 
 
 def overall(errors: pd.DataFrame) -> pd.DataFrame:
-    """One row for each forecast.
-
-    Parameters
-    ----------
-    errors : DataFrame
-        Of `compare`.
-
-    Returns
-    -------
-    DataFrame
-        Errors of each mix and of all together.
-    """
+    """One row for each forecast: errors of each mix and of all together."""
     rows = []
     for name, group in errors.groupby("forecast", sort=False):
         rows.append(

@@ -32,19 +32,10 @@ MOST_ITERATIONS = 25  # of one with the factors of a neighbour, or of another ma
 class Physics:
     """What films and contacts do; each can be taken away (docs/forecast.md).
 
-    Parameters
-    ----------
-    film : float, optional
-        Thickness of the matrix between grains that touch [m]; None keeps grains apart as the fraction says.
-    loosening : float
-        Widening of these films, linear strain.
-    void_share : float
-        Of the facets, without film.
-    skeleton_pressure : float
-        Presses dry contacts together [Pa], zero for none.
-    squeezed : bool
-        The matrix is nearly incompressible; else Poisson's ratio of a film is zero, and lines through grain
-        and film do not know of each other.
+    `film` [m] is the matrix between grains that touch, None keeps grains apart as the fraction says; `loosening` widens
+    these films, a linear strain; `void_share` of the facets are without film; `skeleton_pressure` [Pa] presses dry
+    contacts together. Not `squeezed`: Poisson's ratio of a film is zero, instead of a nearly incompressible matrix, and
+    lines through grain and film do not know of each other.
     """
 
     film: float | None = None
@@ -56,33 +47,14 @@ class Physics:
 
 @dataclass(frozen=True, eq=False)
 class Contents:
-    """A prism of a level's packing.
-
-    Parameters
-    ----------
-    prism : Specimen
-        Spheres at their own size.
-    solid_fraction : float
-        What they fill of its volume.
-    """
+    """A prism of a level's packing, spheres at their own size, and the fraction of its volume that they fill."""
 
     prism: Specimen
     solid_fraction: float
 
 
 def contents_of(packing: LevelPacking) -> Contents:
-    """The prism cut from the middle of a layer.
-
-    Parameters
-    ----------
-    packing : LevelPacking
-        Spheres at rest.
-
-    Returns
-    -------
-    Contents
-        With its solid fraction.
-    """
+    """The prism cut from the middle of a layer, with its solid fraction."""
     position, radius, margin = packing.position, packing.radius, SKIN * LARGEST
     top = layer_height(position, radius)
     length, width = packing.box[:2] - 2.0 * margin
@@ -101,26 +73,11 @@ def contents_of(packing: LevelPacking) -> Contents:
 
 
 def films_of(contents: Contents, level: Level, physics: Physics) -> tuple[Films, np.ndarray]:
-    """Films at the level's fraction, and which of them lie between grains that touch (b,).
+    """Films at the level's fraction, in packing units, and which of them lie between grains that touch (b,).
 
-    Spheres shrink alike until they fill the fraction; grains that touched in the layer stay as close as physics.film
-    says: a crushed grain holds less than the sphere that touches the same neighbours.
-
-    Parameters
-    ----------
-    contents : Contents
-        A prism of the level's packing.
-    level : Level
-        Fraction that its grains fill, and their largest size [m].
-    physics : Physics
-        Film between grains that touch, and its loosening.
-
-    Returns
-    -------
-    Films
-        Larger and smaller radius, gap [m] and facet [m2] of each bond, in packing units.
-    ndarray of bool (b,)
-        True where the grains touched in the layer; never at a plate.
+    Spheres shrink alike until they fill the fraction; grains that touched in the layer, never at a plate, stay as close
+    as `physics.film` says: a crushed grain holds less than the sphere that touches the same neighbours. Radii of a film
+    come larger first.
     """
     prism, network = contents.prism, contents.prism.network
     radius = np.append(prism.radius, [0.0, 0.0])  # the plates
@@ -145,23 +102,7 @@ def level_map(
 ) -> StaticMap:
     """Young's modulus of a level over that of its grains as a function of that of its matrix, likewise.
 
-    Parameters
-    ----------
-    contents : Contents
-        Prism of the level.
-    level : Level
-        Sizes and fraction.
-    grain : Solid
-        The solid of the grains.
-    matrix_bulk : float
-        K of the matrix [Pa].
-    physics : Physics
-        What films and contacts do.
-
-    Returns
-    -------
-    StaticMap
-        The function.
+    `matrix_bulk` is K of the matrix [Pa].
     """
     stiffness = bond_stiffness(contents, level, grain, matrix_bulk, physics, RATIOS) / grain.modulus
     found = np.empty(RATIOS.size)
@@ -187,30 +128,11 @@ def _statics(contents: Contents) -> list[Statics]:
 def bond_stiffness(
     contents: Contents, level: Level, grain: Solid, matrix_bulk: float, physics: Physics, ratio: np.ndarray
 ) -> np.ndarray:
-    """Stiffness of the components of all bonds: films, those that are voids, and dry contacts.
+    """Normal and two tangential stiffnesses (m, 3 b) [N/m] of all bonds: films, those that are voids, dry contacts.
 
-    At a ratio of one the matrix is the material of the grains, where films are squeezed: its bulk modulus
-    rises with the modulus from matrix_bulk to theirs.
-
-    Parameters
-    ----------
-    contents : Contents
-        A prism of the level's packing.
-    level : Level
-        Fraction that its grains fill.
-    grain : Solid
-        Modulus [Pa] and Poisson's ratio of the stone.
-    matrix_bulk : float
-        K of the matrix where it is soft [Pa].
-    physics : Physics
-        What films and contacts do.
-    ratio : ndarray (m,)
-        Modulus of the matrix over that of the grains, real or complex.
-
-    Returns
-    -------
-    ndarray (m, 3 b)
-        Normal and two tangential stiffnesses of each bond [N/m].
+    `ratio` (m,) is the modulus of the matrix over that of the grains, real or complex. At a ratio of one the matrix is
+    the material of the grains, where films are squeezed: its bulk modulus rises with the modulus from `matrix_bulk`, K
+    where it is soft [Pa], to theirs.
     """
     films, touching = films_of(contents, level, physics)
     young = ratio * grain.modulus

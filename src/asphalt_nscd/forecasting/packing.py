@@ -24,22 +24,9 @@ MOST_SPHERES = 6000
 
 @dataclass(frozen=True)
 class LevelPacking:
-    """Spheres at rest in a box [0, length] x [0, width], in packing units.
+    """Spheres at rest in a box [0, length] x [0, width], in packing units; `coordination`: mean contacts of one.
 
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    box : ndarray (3,)
-        Length, width and height [m].
-    seed : int
-        Of the lattice.
-    solid_fraction : float
-        Of the layer.
-    coordination : float
-        Contacts of a sphere in the mean.
+    `position` (n, 3), `radius` (n,) and `box` (3,), its length, width and height, in m.
     """
 
     position: np.ndarray
@@ -56,24 +43,7 @@ def packing_of(
     folder: Path,
     progress: Progress = lambda stage, done, total: None,
 ) -> LevelPacking:
-    """The packing of a level, poured if it is not there.
-
-    Parameters
-    ----------
-    level : Level
-        Sizes and shares of its grains.
-    seed : int
-        Of the lattice.
-    folder : path
-        Where packings are kept.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    LevelPacking
-        Spheres at rest.
-    """
+    """The packing of a level for a seed of the lattice, poured if it is not in the folder."""
     diameter, count, width = ordered(level)
     path = folder / f"{level.name.replace(' ', '_')}_{_key(diameter, count)}_{seed}.h5"
     if not path.is_file():
@@ -94,22 +64,7 @@ def packing_of(
 
 
 def ordered(level: Level) -> tuple[np.ndarray, np.ndarray, float]:
-    """What to pour for a level, in packing units.
-
-    Parameters
-    ----------
-    level : Level
-        Sizes and shares of its grains.
-
-    Returns
-    -------
-    ndarray (c,)
-        Diameters [m].
-    ndarray of int (c,)
-        Counts.
-    float
-        Width of the box [m].
-    """
+    """What to pour for a level, in packing units: diameters (c,) [m], counts (c,) and width of the box [m]."""
     diameter = level.diameter * LARGEST / level.diameter.max()
     width = WIDTH * LARGEST
     count = level.share * LOOSE * width**3 / (np.pi / 6.0 * diameter**3)

@@ -34,32 +34,13 @@ DENSEST = 0.92  # of the volume: more solids than any grading packs
 
 @dataclass(frozen=True)
 class Grading:
-    """Share of the mass (and volume) of the aggregate that passes each sieve, rising with it.
-
-    Parameters
-    ----------
-    sieve : ndarray (s,)
-        [m].
-    passing : ndarray (s,)
-        0 to 1; the last is 1.
-    """
+    """Share (s,) of mass (and volume) of the aggregate that passes each sieve (s,) [m], rising with it to 1."""
 
     sieve: np.ndarray
     passing: np.ndarray
 
     def passing_at(self, diameter: np.ndarray | float) -> np.ndarray:
-        """Share finer, straight between sieves over the logarithm of size; all below pass.
-
-        Parameters
-        ----------
-        diameter : ndarray or float
-            [m].
-
-        Returns
-        -------
-        ndarray
-            0 to 1, of the same shape.
-        """
+        """Share finer than a diameter [m], straight between sieves over the logarithm of size; all below pass."""
         return np.interp(np.log(diameter), np.log(self.sieve), self.passing)
 
 
@@ -67,36 +48,9 @@ class Grading:
 class Recipe:
     """What a mix is made of.
 
-    Parameters
-    ----------
-    name : str
-        Of the mix.
-    source : str
-        Where the recipe comes from.
-    file : str
-        For messages.
-    binder : Spectrum
-        Law of Young's modulus.
-    shifted : bool
-        Whether the law holds at other temperatures than its reference.
-    temperature_stated : bool
-        Else UNSTATED stands for it.
-    binder_share : float
-        Of the mass of the mix.
-    voids : float
-        Of the volume of the mix.
-    aggregate_density : float
-        [kg/m3].
-    binder_density : float
-        [kg/m3].
-    aggregate : Solid
-        The solid of the grains.
-    grading : Grading
-        Of the aggregate.
-    temperature : ndarray (n,)
-        Of each point of the forecast [degC].
-    frequency : ndarray (n,)
-        Of each point of the forecast [Hz].
+    `binder` is the law of Young's modulus, `shifted` where it holds at other temperatures than its reference, which is
+    UNSTATED where none is stated; `binder_share` of the mass, `voids` of the volume of the mix; densities in kg/m3;
+    `temperature` [degC] and `frequency` [Hz] (n,) of each point of the forecast. `file` is for messages.
     """
 
     name: str
@@ -133,23 +87,7 @@ class Recipe:
 
 
 def read_recipe(path: str | Path) -> Recipe:
-    """Read a recipe.
-
-    Parameters
-    ----------
-    path : path
-        YAML file as data/forecast/recipe.yaml.
-
-    Returns
-    -------
-    Recipe
-        Checked.
-
-    Raises
-    ------
-    InputError
-        Which names the key and the mend.
-    """
+    """Read and check a recipe, a YAML file as data/forecast/recipe.yaml."""
     require_readable(path, "check the path of the recipe")
     try:
         content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
@@ -159,25 +97,7 @@ def read_recipe(path: str | Path) -> Recipe:
 
 
 def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
-    """The recipe in a mapping as its file has it.
-
-    Parameters
-    ----------
-    content : mapping
-        Of a YAML file.
-    path : path
-        Its name in messages.
-
-    Returns
-    -------
-    Recipe
-        Checked.
-
-    Raises
-    ------
-    InputError
-        Which names the key and the mend.
-    """
+    """The recipe, checked, in a mapping as its YAML file has it; `path` is its name in messages."""
     schema = yaml.safe_load((files(__package__) / "recipe.schema.yaml").read_text(encoding="utf-8"))
     if not isinstance(content, Mapping):
         raise InputError(f"{path}: holds no mapping; see data/forecast/recipe.yaml.")

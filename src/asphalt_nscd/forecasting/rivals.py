@@ -15,50 +15,17 @@ ROUNDS = 2000  # of the self-consistent iteration
 
 
 def mori_tanaka(recipe: Recipe) -> np.ndarray:
-    """Stiff spheres in each level's matrix, then air voids in the mix (Mori & Tanaka 1973).
-
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        E* [Pa].
-    """
+    """E* (n,) [Pa]: stiff spheres in each level's matrix, then air voids in the mix (Mori & Tanaka 1973)."""
     return _levels(recipe, _dilute_in_matrix)
 
 
 def self_consistent(recipe: Recipe) -> np.ndarray:
-    """Grains of each level and its matrix as spheres in the level itself (Hill 1965).
-
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        E* [Pa].
-    """
+    """E* (n,) [Pa]: grains of each level and its matrix as spheres in the level itself (Hill 1965)."""
     return _levels(recipe, _in_itself)
 
 
 def hirsch(recipe: Recipe) -> np.ndarray:
-    """The regression of Christensen, Pellinen & Bonaquist (2003), with their equation of the phase.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        E* [Pa].
-    """
+    """E* (n,) [Pa] of the regression of Christensen, Pellinen & Bonaquist (2003), with their equation of the phase."""
     shear = np.abs(recipe.binder_modulus()) / 3.0 / PSI
     vma, vfa = _volumetrics(recipe)
     filled = vfa * 3.0 * shear / vma
@@ -72,18 +39,7 @@ def hirsch(recipe: Recipe) -> np.ndarray:
 
 
 def witczak(recipe: Recipe) -> np.ndarray:
-    """The regression of Bari & Witczak (2006).
-
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        |E*| [Pa]; it gives no phase, so the result has none.
-    """
+    """|E*| (n,) [Pa] of the regression of Bari & Witczak (2006), which gives no phase, so the result has none."""
     binder = recipe.binder_modulus()
     shear, phase = np.abs(binder) / 3.0 / PSI, np.degrees(np.angle(binder))
     passing = recipe.grading.passing_at

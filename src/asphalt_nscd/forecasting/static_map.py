@@ -20,18 +20,8 @@ POLES = np.geomspace(1e-8, 10.0, 73)  # eight a decade, beyond the ratios on bot
 class StaticMap:
     """F(x) = a + b x + sum of w x / (1 + x / s) of a level, moduli over that of its grains.
 
-    Parameters
-    ----------
-    constant : float
-        a.
-    slope : float
-        b.
-    weight : ndarray (p,)
-        w.
-    pole : ndarray (p,)
-        s.
-    error : float
-        Largest relative deviation from the solutions it was made of.
+    `constant` is a, `slope` b, `weight` (p,) w, `pole` (p,) s; `error` is the largest relative deviation from the
+    solutions it was made of.
     """
 
     constant: float
@@ -47,20 +37,7 @@ class StaticMap:
 
 
 def fit_map(values: np.ndarray, ratios: np.ndarray = RATIOS) -> StaticMap:
-    """The map through static solutions. Twice as many leave a tenth of its error, or less.
-
-    Parameters
-    ----------
-    values : ndarray (n,)
-        F at the ratios.
-    ratios : ndarray (n,)
-        x.
-
-    Returns
-    -------
-    StaticMap
-        With its error.
-    """
+    """The map through static solutions F (n,) at `ratios` x (n,); twice as many leave a tenth of its error, or less."""
     x = ratios[:, None]
     basis = np.hstack([np.ones_like(x), x, x / (1.0 + x / POLES)]) / values[:, None]
     size = np.linalg.norm(basis, axis=0)

@@ -68,23 +68,10 @@ def fit_bonds(
     highest_omega: float,
     classes: int = CLASSES,
 ) -> FittedBonds:
-    """The system with chains for bonds of this stiffness, over a band; see FittedBonds for their error.
+    """The system with chains for bonds of this stiffness over a band [rad/s]; see FittedBonds for their error.
 
-    Parameters
-    ----------
-    system : BondedSystem
-        Whose weights are replaced.
-    stiffness : callable
-        Complex stiffness (f, 3 b) [N/m] of all components at angular frequencies (f,) [rad/s].
-    lowest_omega, highest_omega : float
-        The band [rad/s].
-    classes : int
-        How many chains at most; components of one shape over frequency share one.
-
-    Returns
-    -------
-    FittedBonds
-        System and laws; its weights are mean stiffnesses over UNIT.
+    `stiffness` gives complex (f, 3 b) [N/m] of all components at angular frequencies (f,) [rad/s]. At most `classes`
+    chains: components of one shape over frequency share one. Weights become mean stiffnesses over UNIT.
     """
     omega = np.geomspace(lowest_omega, highest_omega, SAMPLES)
     logarithm = np.log(stiffness(omega).T)
@@ -124,21 +111,9 @@ def _classes(shape: np.ndarray, most: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def harmonic_stiffness(system: BondedSystem, stiffness: Stiffness, omega: float) -> complex:
-    """Stiffness of the head in steady oscillation, without chains or steps.
+    """Force over displacement of the head [N/m] in steady oscillation at `omega` [rad/s], without chains or steps.
 
-    Parameters
-    ----------
-    system : BondedSystem
-        Supports, masses and bonds.
-    stiffness : callable
-        Complex stiffness (f, 3 b) [N/m] of all components at angular frequencies (f,) [rad/s].
-    omega : float
-        Angular frequency [rad/s].
-
-    Returns
-    -------
-    complex
-        Force over displacement of the head [N/m].
+    `stiffness` gives complex (f, 3 b) [N/m] of all components at angular frequencies (f,) [rad/s].
     """
     own = stiffness(np.array([omega]))[0]
     weight = np.abs(own)
@@ -150,23 +125,8 @@ def step_test(
 ) -> SteppedTest:
     """Drive the head sinusoidally from rest, by the fitted scheme (nscd/stepping/scheme.py).
 
-    Parameters
-    ----------
-    bonds : FittedBonds
-        Of `fit_bonds`, over a band that holds the frequency.
-    frequency : float
-        [Hz].
-    amplitude : float
-        Of the head [m].
-    cycles : int
-        How many; the stiffness is that of the last REDUCED_CYCLES.
-    steps_per_cycle : int
-        The scheme has no error of the time step in steady oscillation, so few are enough.
-
-    Returns
-    -------
-    SteppedTest
-        Stiffness [N/m], force (cycles steps_per_cycle,) [N], broken bonds and energies [J].
+    `frequency` [Hz], within the band of the bonds, and `amplitude` of the head [m]; the stiffness is that of the last
+    REDUCED_CYCLES. Few steps are enough: the scheme has no error of the time step in steady oscillation.
     """
     # the fitted scheme has no error of the time step in steady oscillation: a few steps a cycle are enough
     time_step = 1.0 / (frequency * steps_per_cycle)

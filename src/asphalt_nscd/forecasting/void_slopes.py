@@ -39,29 +39,12 @@ class _AnyBinder:
 def compare_voids(
     folder: str | Path, recipe: Recipe, networks: Networks, progress: Callable[[str, float, float], None]
 ) -> pd.DataFrame:
-    """d ln|E*| / d air voids, measured, forecast, by RIVALS.
+    """d ln|E*| / d air voids [% per %], measured, forecast, by RIVALS, in a row for each temperature and frequency.
 
-    Measured: regression within mixes, with its standard error and the probability of a forecast as far off.
-    Conditions with fewer than four mixes are left out.
-
-    Parameters
-    ----------
-    folder : path
-        Tables MIX.csv (specimen, temperature_C, frequency_Hz, E_MPa) and volumetrics.csv (mix, specimen_id,
-        Va_pct, VMA_pct, with a blank for each underscore of MIX; states of one section have one name before
-        the last underscore).
-    recipe : Recipe
-        Whose grading stands for theirs.
-    networks : Networks
-        Packings and maps.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    DataFrame
-        [% per %] A row for each temperature and frequency. The last row, without either, is that of the means
-        of each specimen over its conditions, since what makes a specimen stiff does so in all of them.
+    Measured: regression within mixes, with its standard error and the probability of a forecast as far off. Conditions
+    with fewer than four mixes are left out. The last row is that of the means of each specimen, since what makes one
+    stiff does so in all conditions. `folder` holds MIX.csv tables and volumetrics.csv (mix, specimen_id, Va_pct,
+    VMA_pct; blanks for underscores of MIX; states of one section share the name before the last underscore).
     """
     tests = _specimens(Path(folder))
     by_condition = tests.groupby(["temperature_C", "frequency_Hz"])["mix"].transform("nunique")

@@ -36,18 +36,7 @@ WORDS = {
 
 
 def points(found: Forecast) -> pd.DataFrame:
-    """The forecast as a table.
-
-    Parameters
-    ----------
-    found : Forecast
-        What was computed.
-
-    Returns
-    -------
-    DataFrame
-        One row for each temperature and frequency, with the band of |E*| and phase.
-    """
+    """The forecast as a table: one row for each temperature and frequency, with the band of |E*| and phase."""
     size, phase = np.abs(found.modulus), np.angle(found.modulus)
     doubt = found.band(MODEL)
     return pd.DataFrame(
@@ -65,18 +54,7 @@ def points(found: Forecast) -> pd.DataFrame:
 
 
 def rival_points(found: Forecast) -> pd.DataFrame:
-    """What mean fields and regressions make of the same recipe, beside the forecast.
-
-    Parameters
-    ----------
-    found : Forecast
-        What was computed.
-
-    Returns
-    -------
-    DataFrame
-        One row for each temperature, frequency and rival.
-    """
+    """What mean fields and regressions make of the recipe: one row for each temperature, frequency and rival."""
     frame = points(found)[["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]]
     for name, rival in RIVALS.items():
         modulus = rival(found.recipe)
@@ -88,18 +66,7 @@ def rival_points(found: Forecast) -> pd.DataFrame:
 
 
 def law_of_mix(found: Forecast) -> dict[str, Any]:
-    """The law of the mix as other steps read it: 2S2P1D with the binder's kind of shift, or a Kelvin chain.
-
-    Parameters
-    ----------
-    found : Forecast
-        What was computed.
-
-    Returns
-    -------
-    dict
-        Content of its file.
-    """
+    """The law of the mix as other steps read it: 2S2P1D with the binder's kind of shift, or a Kelvin chain."""
     recipe, shift = found.recipe, found.recipe.binder.shift
     source = f"forecast from binder and recipe ({recipe.name})"
     omega = 2.0 * np.pi * recipe.frequency
@@ -131,18 +98,7 @@ def law_of_mix(found: Forecast) -> dict[str, Any]:
 
 
 def summary(found: Forecast) -> dict[str, Any]:
-    """Levels, packings, amplifications, and how much each doubt moves the answer.
-
-    Parameters
-    ----------
-    found : Forecast
-        What was computed.
-
-    Returns
-    -------
-    dict
-        Content of its file.
-    """
+    """Levels, packings, amplifications, and how much each doubt moves the answer, as the file holds them."""
     recipe = found.recipe
     doubts = {
         WORDS[name]: {
@@ -188,20 +144,7 @@ def summary(found: Forecast) -> dict[str, Any]:
 
 
 def write(found: Forecast, folder: str | Path) -> list[str]:
-    """Write all files of a forecast.
-
-    Parameters
-    ----------
-    found : Forecast
-        What was computed.
-    folder : path
-        Made where it does not exist.
-
-    Returns
-    -------
-    list of str
-        Their names.
-    """
+    """Write all files of a forecast into a folder, made where it does not exist; returns their names."""
     folder = Path(folder)
     write_table(folder / TABLE, points(found))
     write_table(folder / RIVAL_TABLE, rival_points(found))

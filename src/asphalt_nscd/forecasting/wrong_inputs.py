@@ -49,20 +49,11 @@ NAMED_SHARE = 0.001  # of the gain over no error, if that is more: where gains a
 
 @dataclass(frozen=True)
 class Changes:
-    """What each input changes.
+    """What each input changes, by its name, for errors of several sizes.
 
-    Parameters
-    ----------
-    omega : ndarray (n,)
-        [rad/s], reduced to one temperature where there are several.
-    size : dict of str to ndarray (sizes,)
-        By the input, how far it is off.
-    log : dict of str to ndarray (sizes, n)
-        Change of ln E*.
-    density : dict of str to ndarray (sizes, 2)
-        Change of ln of bulk and maximum density.
-    shape : dict of str to float or ndarray (sizes, n)
-        How far each may be off, at all sizes and points or at each.
+    `omega` (n,) [rad/s] is reduced to one temperature where there are several; `size` (sizes,) is how far the input is
+    off; `log` (sizes, n) and `density` (sizes, 2) are changes of ln E* and of ln of bulk and maximum density; `shape`
+    is how far each may be off, at all sizes and points or at each (sizes, n).
     """
 
     omega: np.ndarray
@@ -86,26 +77,8 @@ def read_ratio(
 ) -> tuple[Recipe, np.ndarray, np.ndarray]:
     """A mix beside its reference, at the points that both tables share; rows of one point are averaged.
 
-    Parameters
-    ----------
-    measured, reference : path
-        CSV with temperature_C, frequency_Hz, E_MPa, phase_deg.
-    recipe : Recipe
-        Of both.
-
-    Returns
-    -------
-    Recipe
-        With these points.
-    ndarray of complex (n,)
-        ln(E* of the first / of the second).
-    ndarray of complex (n,)
-        ln E* of the second.
-
-    Raises
-    ------
-    InputError
-        For fewer than three shared points, or temperatures that the binder's law lacks.
+    Returns the recipe with these points, ln(E* of the first / of the second) (n,) and ln E* of the second (n,). Refuses
+    fewer than three shared points, and temperatures that the binder's law lacks.
     """
     mix, known = (_by_point(path) for path in (measured, reference))
     shared = mix.index.intersection(known.index)
@@ -136,60 +109,21 @@ def _by_point(path: str | Path) -> pd.Series:
 
 
 def densities(recipe: Recipe) -> np.ndarray:
-    """Densities of the mix of a recipe.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-
-    Returns
-    -------
-    ndarray (2,)
-        Bulk and maximum density [kg/m3].
-    """
+    """Bulk and maximum density (2,) [kg/m3] of the mix of a recipe."""
     share = recipe.binder_share
     maximum = 1.0 / (share / recipe.binder_density + (1.0 - share) / recipe.aggregate_density)
     return np.array([maximum * (1.0 - recipe.voids), maximum])
 
 
 def changed(recipe: Recipe, name: str, size: float) -> Recipe:
-    """The recipe with one input off; stiffness and contacts do not stand in it.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-    name : str
-        Of the input.
-    size : float
-        How far it is off, in its unit.
-
-    Returns
-    -------
-    Recipe
-        Another one.
-    """
+    """The recipe with one input off by `size`, in its unit; stiffness and contacts do not stand in it."""
     if name == "air voids":
         return replace(recipe, voids=max(recipe.voids + size, 0.0))
     return replace(recipe, binder_share=recipe.binder_share + size) if name == "binder content" else recipe
 
 
 def changes_of(recipe: Recipe, networks: Networks) -> Changes:
-    """What each input changes by the forecast at the points of the recipe, straight between SIZES.
-
-    Parameters
-    ----------
-    recipe : Recipe
-        What the mix is made of.
-    networks : Networks
-        Packings and maps.
-
-    Returns
-    -------
-    Changes
-        By input and size.
-    """
+    """What each input changes by the forecast at the points of the recipe, straight between SIZES."""
 
     def forecast(name: str, size: float) -> tuple[np.ndarray, np.ndarray]:
         other, chosen, faster = changed(recipe, name, size), Settings(), 1.0
@@ -217,20 +151,7 @@ def changes_of(recipe: Recipe, networks: Networks) -> Changes:
 
 
 def along_reference(changes: Changes, reference: np.ndarray) -> Changes:
-    """The same, the change by a stiffer binder taken from the reference as far as it was measured.
-
-    Parameters
-    ----------
-    changes : Changes
-        By the forecast.
-    reference : ndarray of complex (n,)
-        ln E*.
-
-    Returns
-    -------
-    Changes
-        By input and size.
-    """
+    """The changes, that by a stiffer binder taken from the reference, ln E* (n,), as far as it was measured."""
     decades, name = np.log10(changes.omega), "binder stiffness"
     degree = min(DEGREE, decades.size // 3)
     # powers of a coordinate of order one: those of decades themselves are nearly the same column
@@ -250,21 +171,9 @@ def along_reference(changes: Changes, reference: np.ndarray) -> Changes:
 
 
 def find(changes: Changes, ratio: np.ndarray, density: np.ndarray | None = None) -> Finding:
-    """Which input explains a mix beside its reference.
+    """Which inputs explain a mix beside its reference, by `ratio` (n,), complex ln(E* of mix / reference).
 
-    Parameters
-    ----------
-    changes : Changes
-        By input and size.
-    ratio : ndarray of complex (n,)
-        ln(E* of mix / reference).
-    density : ndarray (2,), optional
-        ln of bulk and maximum density over the recipe's.
-
-    Returns
-    -------
-    Finding
-        Inputs that are likely, and the gain of likelihood of all.
+    `density` (2,) is ln of bulk and maximum density over the recipe's; without it most inputs cannot be told apart.
     """
     gain, best = {}, {}
     for name, sizes in changes.size.items():
@@ -285,19 +194,9 @@ def find(changes: Changes, ratio: np.ndarray, density: np.ndarray | None = None)
 
 
 def limits(changes: Changes, weighed: bool) -> dict[str, float]:
-    """Smallest error of each input that would be noticed without scatter.
+    """Smallest error of each input that is noticed without scatter; NaN where none in its range is.
 
-    Parameters
-    ----------
-    changes : Changes
-        By input and size.
-    weighed : bool
-        Whether the densities are known too.
-
-    Returns
-    -------
-    dict of str to float
-        Above zero; NaN where none in its range is noticed.
+    `weighed` says that the densities are known too.
     """
     found = {}
     for name, sizes in changes.size.items():
@@ -311,20 +210,7 @@ def limits(changes: Changes, weighed: bool) -> dict[str, float]:
 
 
 def table(finding: Finding, limit: dict[str, float]) -> pd.DataFrame:
-    """A finding as a table.
-
-    Parameters
-    ----------
-    finding : Finding
-        Of `find`.
-    limit : dict of str to float
-        Of `limits`.
-
-    Returns
-    -------
-    DataFrame
-        A row for each input: the size that fits best, its gain of likelihood, whether it is named.
-    """
+    """A row for each input of a finding: the size that fits best, its gain of likelihood, whether it is named."""
     rows = []
     for name, gain in finding.gain.items():
         scale, unit = UNITS.get(name, (1.0, "decades of pressure"))

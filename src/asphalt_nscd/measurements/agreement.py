@@ -18,30 +18,12 @@ def mean_relative_error(
     least_phase_deg: float = 0.0,
     by: Sequence[str] = KEYS,
 ) -> pd.DataFrame:
-    """Mean relative error of |E*| and phase for each temperature (Table 4).
+    """Mean relative error of |E*| and phase [%] for each temperature (Table 4).
 
-    As in the paper, the average over specimens is compared with the average over samples, point by point,
-    relative to the measurement; the mean is over the frequencies that were simulated.
-
-    Parameters
-    ----------
-    measured, simulated : DataFrame
-        Columns temperature_C, frequency_Hz, E_MPa, phase_deg.
-    least_phase_deg : float
-        A measured phase below it, of an elastic reference beam say, is nothing to divide by: the error is
-        relative to least_phase_deg there.
-    by : sequence of str
-        Columns of a point: temperature_C, frequency_Hz, and what else tests differ by on purpose.
-
-    Returns
-    -------
-    DataFrame
-        temperature_C, mre_E_percent, mre_phase_percent.
-
-    Raises
-    ------
-    InputError
-        For no simulation, or none measured at its point.
+    As in the paper, the average over specimens is compared with that over samples, point by point, relative to the
+    measurement; the mean is over the frequencies that were simulated. A measured phase below `least_phase_deg`, of an
+    elastic reference beam say, is nothing to divide by: the error is relative to `least_phase_deg` there. `by` names
+    the columns of a point: temperature_C, frequency_Hz, and what else tests differ by on purpose.
     """
     columns = ["E_MPa", "phase_deg"]
     experiment = measured.groupby(list(by))[columns].mean()

@@ -21,18 +21,8 @@ OFF_TARGET = 0.5  # K that T 378 lets the mean temperature of a test stray from 
 class Campaign:
     """Tests of a campaign in our columns, the files they came from, and sentences on how they were read.
 
-    Parameters
-    ----------
-    table : Table
-        Tests.
-    files : tuple of path
-        Where they came from.
-    test_type : str
-        One of `kinds.TEST_TYPES`, or UNKNOWN.
-    notes : tuple of str
-        How they were read.
-    without_tests : tuple of str
-        A sentence for each folder some of whose files hold no test.
+    `test_type` is one of `kinds.TEST_TYPES`, or UNKNOWN; `without_tests` has a sentence for each folder some of whose
+    files hold no test.
     """
 
     table: Table
@@ -43,23 +33,12 @@ class Campaign:
 
 
 def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> NDArray[np.float64]:
-    """Isotherm that each measured temperature belongs to.
+    """Isotherm of each measured temperature (n,) [degC]: the mean of the isotherm's readings to 0.1 K.
 
-    Neighbouring temperatures at most READINGS_APART apart belong together, unless the isotherm then grew
-    wider than WIDEST_ISOTHERM or held one test twice: whoever tested a specimen at 20 and at 20.5 degC at the
-    same frequency meant two isotherms. Such temperatures stay as they are.
-
-    Parameters
-    ----------
-    temperature : ndarray (n,)
-        As measured [degC].
-    tests : sequence (n,)
-        What is the same in two rows that repeat each other, specimen and frequency.
-
-    Returns
-    -------
-    ndarray
-        (n,) Nominal temperature [degC]: the mean of the isotherm's readings to 0.1 K.
+    Neighbouring temperatures at most READINGS_APART apart belong together, unless the isotherm then grew wider than
+    WIDEST_ISOTHERM or held one test twice: whoever tested a specimen at 20 and at 20.5 degC at the same frequency meant
+    two isotherms. Such temperatures stay as they are. `tests` (n,): what is the same in two rows that repeat each
+    other, specimen and frequency.
     """
     values = np.unique(temperature)
     # Readings have a tenth of a degree: 20.0 and 20.5 are 0.5 apart whatever the last bit says.
@@ -74,22 +53,10 @@ def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> ND
 
 
 def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Isotherm of each row of a table: its target where the table gives one, else by `isotherms`.
+    """Isotherm (n,) [degC] of each row of a table: its target where the table gives one, else by `isotherms`.
 
-    A row without a target belongs to that within READINGS_APART of it. Targets of two operators that were
-    held at one temperature are one (`_one_target`).
-
-    Parameters
-    ----------
-    table : Table
-        Tests.
-    temperature : ndarray (n,)
-        As measured [degC].
-
-    Returns
-    -------
-    ndarray
-        (n,) Nominal temperature [degC].
+    A row without a target belongs to that within READINGS_APART of it. Targets of two operators that were held at one
+    temperature are one (`_one_target`).
     """
     names = ("specimen", "replicate", "frequency_Hz", "amplitude_m", "order", "cycles")
     tests = list(zip(*(table.columns[name] for name in names if name in table.columns), strict=True))
@@ -108,22 +75,10 @@ def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDAr
 
 
 def with_sweeps_apart(nominal: NDArray[np.float64], specimen: NDArray) -> NDArray[np.float64]:
-    """Isotherms, a sweep that one specimen alone has put to the one that it lacks.
+    """Isotherms (n,) [degC], where a sweep that one specimen alone has is put to the one that it lacks.
 
     Their temperatures are less than TARGETS_APART from each other, and the specimens have two more in common: the
     record of the sweep is wrong, or its bath was. Of two single sweeps the rounder temperature is the isotherm's.
-
-    Parameters
-    ----------
-    nominal : ndarray (n,)
-        Of the isotherms [degC].
-    specimen : ndarray (n,)
-        Of each test.
-
-    Returns
-    -------
-    ndarray
-        (n,) Nominal temperature [degC].
     """
     out = nominal.copy()
     at = {float(t): set(specimen[nominal == t].tolist()) for t in np.unique(nominal)}
@@ -162,20 +117,7 @@ def _one_target(
 
 
 def isotherm_notes(temperature: NDArray[np.float64], nominal: NDArray[np.float64]) -> list[str]:
-    """What a reader must know of the isotherms.
-
-    Parameters
-    ----------
-    temperature : ndarray (n,)
-        As measured [degC].
-    nominal : ndarray (n,)
-        Of the isotherms [degC].
-
-    Returns
-    -------
-    list of str
-        Sentences on those that hold more than one temperature, and on tests off their target.
-    """
+    """Sentences on isotherms that hold more than one temperature [degC], and on tests off their target."""
     notes = []
     changed = np.unique(nominal[np.abs(temperature - nominal) > 1e-9])
     if changed.size:

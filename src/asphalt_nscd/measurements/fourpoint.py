@@ -22,23 +22,11 @@ USUAL_STRAIN = 50e-6  # of the outermost fibre between the inner clamps, as EN 1
 
 @dataclass(frozen=True)
 class Beam(Shape):
-    """Prism in four-point bending.
+    """Prism in four-point bending: `h` is the span between the outer clamps [m].
 
-    Parameters
-    ----------
-    h : float
-        Span between the outer clamps [m].
-    depth : float
-        Extent along the drive [m].
-    breadth : float
-        The other one [m].
-    mass : float
-        Of the specimen [kg].
-    mobile_mass : float
-        Of the inner clamps and what moves with them [kg].
+    `depth` is the extent along the drive, `breadth` the other one [m]; `mass` is that of the specimen, `mobile_mass`
+    that of the inner clamps and what moves with them [kg].
 
-    Examples
-    --------
     >>> beam = Beam(h=0.357, depth=0.05, breadth=0.063, mass=2.7, mobile_mass=0.5)
     >>> round(beam.form_factor()), round(beam.mass_factor(), 3), f"{beam.usual_amplitude():.2g} m"
     (1070, 2.292, '2.4e-05 m')
@@ -103,34 +91,15 @@ class Beam(Shape):
         return SHARE_OF_MASS * self.mass + self.mobile_mass
 
     def counted_share(self, poisson: float) -> float:
-        """Bending, without shear between outer and inner clamps, F/2 over L/3; k as in `twopoint.bending_share`.
+        """Share of bending in the static displacement, without shear between outer and inner clamps.
 
-        Parameters
-        ----------
-        poisson : float
-            Of the beam.
-
-        Returns
-        -------
-        float
-            Share of the static displacement.
+        F/2 over L/3; k as in `twopoint.bending_share`.
         """
         shear = (12.0 + 11.0 * poisson) / 30.0 * self.h / (self.breadth * self.depth)
         return float(self.form_factor() / (self.form_factor() + shear))
 
     def line(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Elastic line of a beam on two supports under two forces.
-
-        Parameters
-        ----------
-        x : ndarray (n,)
-            Along the beam [m], rising.
-
-        Returns
-        -------
-        ndarray
-            (n,) 1 at the inner clamps.
-        """
+        """Elastic line (n,) of a beam on two supports under two forces, 1 at the inner clamps; `x` (n,) rising [m]."""
         s = np.minimum(x, self.h - x) / self.h
         outer = s * (2.0 / 3.0 - s**2)
         inner = (3.0 * s * (1.0 - s) - 1.0 / 9.0) / 3.0

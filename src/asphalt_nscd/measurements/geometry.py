@@ -24,59 +24,23 @@ LIMITS = Geometry.limits  # of those measured in bending, which alone are reduce
 
 
 def shape_of(attributes: Mapping[str, Any]) -> Shape:
-    """What `Shape.attributes` said of a geometry; in older files a trapezoid.
-
-    Parameters
-    ----------
-    attributes : mapping
-        Of a file.
-
-    Returns
-    -------
-    Shape
-        The geometry.
-    """
+    """The geometry that `Shape.attributes` of a file said; in older files a trapezoid."""
     shape = SHAPES[attributes.get("geometry", Geometry.test)]
     return shape(**{field.name: attributes[field.name] for field in fields(shape)})  # type: ignore[arg-type]
 
 
 def test_of(mapping: Mapping[str, Any]) -> str:
-    """The test whose specimen has the keys of a mapping.
-
-    Parameters
-    ----------
-    mapping : mapping
-        Of mm and kg.
-
-    Returns
-    -------
-    str
-        That whose first key it has, else two-point bending.
-    """
+    """The test whose first key a mapping of mm and kg has, else two-point bending."""
     return next(
         (test for test, shape in SHAPES.items() if next(iter(shape.limits)) in mapping), Geometry.test
     )
 
 
 def read_shape(source: str | Path | Mapping[str, Any]) -> Shape:
-    """The specimen to simulate.
+    """The specimen to simulate, from a mapping or a JSON file with the keys of one of SHAPES.
 
-    Parameters
-    ----------
-    source : path or mapping
-        Mapping of the keys of one of SHAPES, or a JSON file with it. The keys say which: d_mm is of a
-        cylinder in tension-compression, L_mm of a prism in four-point bending, b_mm of a trapezoid in
-        two-point bending.
-
-    Returns
-    -------
-    Shape
-        The geometry.
-
-    Raises
-    ------
-    InputError
-        For keys that are missing, or values out of their limits.
+    The keys say which: d_mm is of a cylinder in tension-compression, L_mm of a prism in four-point bending, b_mm of a
+    trapezoid in two-point bending.
     """
     if isinstance(source, Mapping):
         return _from_mapping(source, "geometry")
@@ -86,25 +50,10 @@ def read_shape(source: str | Path | Mapping[str, Any]) -> Shape:
 
 
 def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[str]) -> dict[str, Geometry]:
-    """Geometry of each named specimen.
+    """Geometry of each named specimen, by name.
 
-    Parameters
-    ----------
-    source : path or mapping
-        CSV table (`specimen` and the keys of LIMITS), or a mapping of these keys that holds for all
-        specimens, or a JSON file with such a mapping.
-    specimens : iterable of str
-        Their names.
-
-    Returns
-    -------
-    dict of str to Geometry
-        By name.
-
-    Raises
-    ------
-    InputError
-        For a specimen that the table lacks, or values out of their limits.
+    `source` is a CSV table (`specimen` and the keys of LIMITS), or a mapping of these keys that holds for all
+    specimens, or a JSON file with such a mapping.
     """
     specimens = list(dict.fromkeys(specimens))
     if isinstance(source, Mapping):
@@ -122,20 +71,7 @@ def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[st
 
 
 def require_within(shape: Shape, box: Sequence[float]) -> None:
-    """Refuse a specimen that a layer in the box cannot hold in full.
-
-    Parameters
-    ----------
-    shape : Shape
-        Geometry of the specimen.
-    box : sequence of float
-        Length, width and height [m].
-
-    Raises
-    ------
-    InputError
-        Which says in which direction.
-    """
+    """Refuse a specimen that a layer in the box (3,) [m] cannot hold in full; says in which direction."""
     for wanted, extent, direction, size in (
         (shape.h, "high", "long", box[0]),
         (shape.thickness, "thick", "wide", box[1]),
@@ -150,20 +86,7 @@ def require_within(shape: Shape, box: Sequence[float]) -> None:
 
 
 def require_joined(shape: Shape, area: str) -> None:
-    """Refuse bonds by an area, other than facets, that do not join a specimen to all of its plates.
-
-    Parameters
-    ----------
-    shape : Shape
-        Geometry of the specimen.
-    area : str
-        One of `specimen.network.AREAS`.
-
-    Raises
-    ------
-    InputError
-        For clamps between the ends.
-    """
+    """Refuse bonds by an area other than facets where clamps lie between the ends, since they do not join them."""
     if area != "facets" and len(shape.plates) > 2:
         raise InputError(
             f"{shape.test} clamps the specimen between its ends, where bonds by area {area!r} do not join it; give "

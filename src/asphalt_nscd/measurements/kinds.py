@@ -15,14 +15,6 @@ UNKNOWN = "unknown"  # of moduli where nothing says which test gave them
 def usual_steps_per_cycle(test: str) -> int | None:
     """Steps by the scheme fitted to the frequency that a simulated test takes unless told otherwise.
 
-    Parameters
-    ----------
-    test : str
-        As `Shape.test` has it.
-
-    Returns
-    -------
-    int or None
-        None of the paper's test, whose steps of implicit Euler have a length instead.
+    None for the paper's test, whose steps of implicit Euler have a length instead.
     """
     return None if test == BENDING else FITTED_STEPS

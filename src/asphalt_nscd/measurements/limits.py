@@ -30,20 +30,7 @@ _KELVIN_PER_DECADE = 9.0  # of frequency, a usual shift about room temperature
 
 
 def least_modulus(temperature: ArrayLike, frequency: ArrayLike) -> NDArray[np.float64]:
-    """Norm of E* below which no asphalt falls.
-
-    Parameters
-    ----------
-    temperature : array_like
-        [degC].
-    frequency : array_like
-        [Hz], broadcast with temperature.
-
-    Returns
-    -------
-    ndarray
-        [MPa].
-    """
+    """Norm of E* [MPa] below which no asphalt falls, at temperatures [degC] and frequencies [Hz], broadcast."""
     at_one_hertz = np.asarray(temperature) - _KELVIN_PER_DECADE * np.log10(frequency)
     # On the logarithm, for |E*| falls by decades.
     return np.exp(np.interp(at_one_hertz, list(_SOFTEST), np.log(list(_SOFTEST.values()))))

@@ -45,29 +45,11 @@ def reduce_table(
     *,
     cycles: int | None = None,
 ) -> pd.DataFrame:
-    """Read a measurement table of any form, reduce it by Eqs. (1)-(5), write the reduced table.
+    """Read a measurement table of any form, reduce it by Eqs. (1)-(5), write the reduced table to `output`.
 
-    Parameters
-    ----------
-    measurements : path
-        CSV with `specimen, temperature_C, frequency_Hz`, optionally `origin`, and one of FORMS; paths of
-        records are relative to the table.
-    geometry : path or mapping
-        See `read_geometry`; not looked at for ready moduli.
-    output : path
-        CSV file to write.
-    cycles : int, optional
-        Window for records, None for the last ten seconds.
-
-    Returns
-    -------
-    DataFrame
-        The reduced table.
-
-    Raises
-    ------
-    InputError
-        Which names file, row and mend.
+    `measurements` is a CSV with `specimen, temperature_C, frequency_Hz`, optionally `origin`, and one of FORMS; paths
+    of records are relative to the table. `geometry` is that of `read_geometry`, not looked at for ready moduli.
+    `cycles` is the window for records, None for the last ten seconds.
     """
     frame = reduced_frame(read_csv(measurements), geometry, cycles=cycles)
     frame = frame.reindex(columns=REDUCED_COLUMNS)
@@ -84,26 +66,7 @@ def reduced_frame(
 ) -> pd.DataFrame:
     """The rows of a measurement table with E_MPa and phase_deg, as `reduce_table` describes them.
 
-    Parameters
-    ----------
-    table : Table
-        Of any form.
-    geometry : path or mapping
-        See `read_geometry`; not looked at for ready moduli.
-    cycles : int, optional
-        Window for records, None for the last ten seconds.
-    tests : sequence of str
-        Columns which, with the specimen, tell one test from another.
-
-    Returns
-    -------
-    DataFrame
-        The reduced table.
-
-    Raises
-    ------
-    InputError
-        Which names file, row and mend.
+    `tests` are the columns which, with the specimen, tell one test from another.
     """
     frame, form = _tests(table, tests)
     if form == "moduli":
@@ -127,36 +90,12 @@ def reduced_frame(
 
 
 def is_reduced(columns: Iterable[str]) -> bool:
-    """Whether a table with these columns is one that `reduce_table` wrote: peaks stand beside the moduli.
-
-    Parameters
-    ----------
-    columns : iterable of str
-        Its columns; further ones do not count.
-
-    Returns
-    -------
-    bool
-        True if so.
-    """
+    """Whether a table with these columns, or more, is one that `reduce_table` wrote: peaks stand beside the moduli."""
     return {*KEYS, *FORMS["peaks"], *FORMS["moduli"], *PICKED} <= set(columns)
 
 
 def require_enough(tests: int, frequencies: int) -> None:
-    """Refuse what is too little for a diagnosis.
-
-    Parameters
-    ----------
-    tests : int
-        How many.
-    frequencies : int
-        How many different ones.
-
-    Raises
-    ------
-    InputError
-        Which says how many are needed.
-    """
+    """Refuse fewer tests, or fewer different frequencies, than a diagnosis needs."""
     if tests < LEAST_TESTS or frequencies < LEAST_FREQUENCIES:
         raise InputError(
             f"{counted(tests, 'test')} at {frequencies} {'frequency' if frequencies == 1 else 'frequencies'} are too "
@@ -165,20 +104,7 @@ def require_enough(tests: int, frequencies: int) -> None:
 
 
 def tests_measured(measurements: str | Path) -> tuple[pd.DataFrame, str]:
-    """Which tests a table of any form holds.
-
-    Parameters
-    ----------
-    measurements : path
-        CSV file.
-
-    Returns
-    -------
-    DataFrame
-        Specimen, temperature, frequency and origin of each row.
-    str
-        Which form.
-    """
+    """Specimen, temperature, frequency and origin of each row of a table of any form, and which form it has."""
     return _tests(read_csv(measurements), KEYS)
 
 
@@ -189,23 +115,7 @@ def _tests(table: Table, tests: Sequence[str]) -> tuple[pd.DataFrame, str]:
 
 
 def read_reduced(path: str | Path) -> pd.DataFrame:
-    """Read a reduced table.
-
-    Parameters
-    ----------
-    path : path
-        CSV file.
-
-    Returns
-    -------
-    DataFrame
-        Specimen ids are strings, absent values NaN.
-
-    Raises
-    ------
-    InputError
-        Which names row and mend.
-    """
+    """Read a reduced table; specimen ids are strings, absent values NaN."""
     table = read_csv(path)
     frame = _read_keys(table)
     table.require(FORMS["moduli"])

@@ -23,16 +23,9 @@ FREE, HELD, DRIVEN = 0, 1, 2  # what a degree of freedom of a plate is
 
 @dataclass(frozen=True)
 class Plate:
-    """A section that stays plane and stiff.
+    """A section that stays plane and stiff, at `height` over the foot [m], with its share of the mobile mass.
 
-    Parameters
-    ----------
-    height : float
-        Over the foot [m].
-    motion : tuple of int (6,)
-        FREE, HELD or DRIVEN for three translations and three rotations; all that are driven move as one.
-    share : float
-        Of the mobile mass.
+    `motion` (6,) is FREE, HELD or DRIVEN for three translations and three rotations; all that are driven move as one.
     """
 
     height: float
@@ -65,28 +58,11 @@ class Shape(ABC):
 
     @classmethod
     def of(cls, values: Mapping[str, float]) -> Self:
-        """From values by the keys of `limits`.
-
-        Parameters
-        ----------
-        values : mapping of str to float
-            In mm and kg.
-
-        Returns
-        -------
-        Self
-            In SI units.
-        """
+        """The geometry in SI units from values in mm and kg, by the keys of `limits`."""
         return cls(*(values[key] * (1e-3 if key.endswith("_mm") else 1.0) for key in cls.limits))
 
     def keys(self) -> dict[str, float]:
-        """The values by the keys of `limits`.
-
-        Returns
-        -------
-        dict of str to float
-            In mm and kg.
-        """
+        """The values in mm and kg by the keys of `limits`."""
         values = zip(self.limits, asdict(self).values(), strict=True)  # type: ignore[call-overload]
         return {key: float(f"{1e3 * x:.10g}") if key.endswith("_mm") else x for key, x in values}
 
@@ -112,85 +88,31 @@ class Shape(ABC):
 
     @abstractmethod
     def faces(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """The planes around the specimen: head, foot, then the free faces.
-
-        Returns
-        -------
-        ndarray (p, 3)
-            Outward normals.
-        ndarray (p,)
-            Offsets [m].
-        """
+        """Outward normals (p, 3) and offsets (p,) [m] of the planes around the specimen: head, foot, free faces."""
 
     @abstractmethod
     def gyration(self) -> NDArray[np.float64]:
-        """Of a plate that moves, thin, about its axes.
-
-        Returns
-        -------
-        ndarray (3,)
-            Squared radii of gyration [m2].
-        """
+        """Squared radii of gyration (3,) [m2] of a thin moving plate about its axes."""
 
     @abstractmethod
     def form_factor(self) -> float:
-        """E over the static force and displacement of the head.
-
-        Returns
-        -------
-        float
-            [1/m].
-        """
+        """E over the static force and displacement of the head [1/m]."""
 
     @abstractmethod
     def mass_factor(self) -> float:
-        """Mass that moves with the head.
-
-        Returns
-        -------
-        float
-            [kg].
-        """
+        """Mass that moves with the head [kg]."""
 
     @abstractmethod
     def counted_share(self, poisson: float) -> float:
-        """Part of the static displacement of the head that the form factor counts.
-
-        Parameters
-        ----------
-        poisson : float
-            Of the specimen.
-
-        Returns
-        -------
-        float
-            0 to 1.
-        """
+        """Share, 0 to 1, of the static displacement of the head that the form factor counts."""
 
     @abstractmethod
     def line(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Static displacement along the drive in theory.
-
-        Parameters
-        ----------
-        x : ndarray (n,)
-            Heights [m], which rise.
-
-        Returns
-        -------
-        ndarray
-            (n,) 1 at the head.
-        """
+        """Static displacement (n,) along the drive in theory at rising heights `x` (n,) [m]; 1 at the head."""
 
     @abstractmethod
     def usual_amplitude(self) -> float:
-        """Amplitude of the head at the strain of usual tests.
-
-        Returns
-        -------
-        float
-            [m].
-        """
+        """Amplitude of the head at the strain of usual tests [m]."""
 
     def complex_modulus(
         self,
@@ -199,23 +121,9 @@ class Shape(ABC):
         displacement_amplitude: ArrayLike,
         phase: ArrayLike,
     ) -> NDArray[np.complex128]:
-        """E* from peak values, Eqs. (1)-(2).
+        """E* [Pa] from peak values, Eqs. (1)-(2): frequency [Hz], F0 [N], z0 [m] and phase Psi [rad].
 
-        Parameters
-        ----------
-        frequency : array_like
-            [Hz].
-        force_amplitude : array_like
-            F0 [N].
-        displacement_amplitude : array_like
-            z0 [m].
-        phase : array_like
-            Psi [rad], by which the force leads. All are scalars or arrays of one shape.
-
-        Returns
-        -------
-        ndarray of complex
-            [Pa], of that shape.
+        The force leads by Psi; all are scalars or arrays of one shape, which is that of the result.
         """
         omega = 2.0 * np.pi * np.asarray(frequency)
         stiffness = (

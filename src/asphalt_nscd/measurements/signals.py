@@ -19,20 +19,7 @@ Vector = NDArray[np.float64]
 
 
 def require_steps(time_step: float, frequency: float) -> None:
-    """Refuse a time step too coarse to simulate a test.
-
-    Parameters
-    ----------
-    time_step : float
-        [s].
-    frequency : float
-        Of the test [Hz].
-
-    Raises
-    ------
-    InputError
-        For fewer than STEPS_PER_CYCLE.
-    """
+    """Refuse a time step [s] of fewer than STEPS_PER_CYCLE at the frequency [Hz], too coarse to simulate a test."""
     if STEPS_PER_CYCLE * time_step * frequency > 1.0:
         most = 1.0 / (STEPS_PER_CYCLE * frequency)
         digit = 10.0 ** (np.floor(np.log10(most)) - 2.0)  # the third one, down
@@ -44,17 +31,7 @@ def require_steps(time_step: float, frequency: float) -> None:
 
 @dataclass(frozen=True)
 class Response:
-    """Amplitudes and phase of a record.
-
-    Parameters
-    ----------
-    force_amplitude : float
-        F0 [N].
-    displacement_amplitude : float
-        z0 [m].
-    phase : float
-        Psi by which the force leads [rad].
-    """
+    """Amplitudes F0 [N] and z0 [m] of a record, and the phase Psi by which the force leads [rad]."""
 
     force_amplitude: float
     displacement_amplitude: float
@@ -66,31 +43,9 @@ def harmonic_response(
 ) -> Response:
     """Least-squares fit of offset, linear drift, cosine and sine to the last whole cycles.
 
-    Parameters
-    ----------
-    time : array_like (n,)
-        [s].
-    force : array_like (n,)
-        [N].
-    displacement : array_like (n,)
-        [m].
-    frequency : float
-        [Hz].
-    cycles : int, optional
-        Window of the last cycles; the whole cycles of the last ten seconds if None.
+    `time` [s], `force` [N] and `displacement` [m] are (n,), `frequency` in Hz. `cycles` counts those of the window;
+    None takes the whole cycles of the last ten seconds. Refuses records too short, or too coarse.
 
-    Returns
-    -------
-    Response
-        Amplitudes and phase.
-
-    Raises
-    ------
-    InputError
-        For records too short, or too coarse.
-
-    Examples
-    --------
     >>> time = np.arange(2000) / 1000
     >>> force = 100 * np.sin(2 * np.pi * 10 * time + 0.3)
     >>> displacement = 6e-5 * np.sin(2 * np.pi * 10 * time)
@@ -120,35 +75,10 @@ def peak_response(
 ) -> Response:
     """Peak picking as in the paper: sampled extremes of each cycle, phase from the lag of the maxima.
 
-    Amplitudes are half the range within a cycle; values of all cycles in the window are averaged. Nothing is
-    interpolated, so the phase comes in steps of 2 pi frequency dt, and drift within a cycle stays in the
-    result.
+    Arguments and units are those of `harmonic_response`. Amplitudes are half the range within a cycle; values of all
+    cycles in the window are averaged. Nothing is interpolated, so the phase comes in steps of 2 pi frequency dt, and
+    drift within a cycle stays in the result.
 
-    Parameters
-    ----------
-    time : array_like (n,)
-        [s].
-    force : array_like (n,)
-        [N].
-    displacement : array_like (n,)
-        [m].
-    frequency : float
-        [Hz].
-    cycles : int, optional
-        Window of the last cycles; the whole cycles of the last ten seconds if None.
-
-    Returns
-    -------
-    Response
-        Amplitudes and phase.
-
-    Raises
-    ------
-    InputError
-        For records too short, or too coarse.
-
-    Examples
-    --------
     >>> time = np.arange(2000) / 1000
     >>> force = 100 * np.sin(2 * np.pi * 10 * time + 0.3)
     >>> displacement = 6e-5 * np.sin(2 * np.pi * 10 * time)

@@ -20,17 +20,9 @@ Vector = NDArray[np.float64]
 
 
 def wrong_sign(table: pd.DataFrame) -> tuple[int, str] | None:
-    """The first phase whose sign is wrong.
+    """Row, from 0, of the first phase whose sign is wrong, and a sentence with the mend; None if there is none.
 
-    Parameters
-    ----------
-    table : DataFrame
-        specimen, temperature_C (of the isotherm), frequency_Hz, E_MPa, phase_deg.
-
-    Returns
-    -------
-    tuple or None (int, str) or None
-        Its row, from 0, and a sentence with the mend.
+    The table has specimen, temperature_C (of the isotherm), frequency_Hz, E_MPa and phase_deg.
     """
     rows = table.assign(row=np.arange(len(table))).sort_values("frequency_Hz")
     for (specimen, temperature), tests in rows.groupby(["specimen", "temperature_C"]):

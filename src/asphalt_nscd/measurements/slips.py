@@ -43,18 +43,7 @@ COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
 
 
 def slips(table: pd.DataFrame) -> Iterator[str]:
-    """Slips of a unit or a label; most tables have none.
-
-    Parameters
-    ----------
-    table : DataFrame
-        specimen, temperature_C (of the isotherm), frequency_Hz, E_MPa, phase_deg.
-
-    Yields
-    ------
-    str
-        A sentence with the mend for each.
-    """
+    """A sentence with the mend for each slip of a unit or a label; most tables have none."""
     yield from _units_of_labels(table)
     yield from _order_of_frequencies(table)
     yield from _radians(table)
@@ -205,20 +194,7 @@ def _unit_of_all_moduli(table: pd.DataFrame) -> Iterator[str]:
 
 
 def unit_in_question(table: pd.DataFrame, unit: str) -> str | None:
-    """What to ask if |E*|, given in a unit and converted, is impossible, but as the numbers stand fits in MPa.
-
-    Parameters
-    ----------
-    table : DataFrame
-        specimen, temperature_C (of the isotherm), frequency_Hz, E_MPa, phase_deg.
-    unit : str
-        Of the moduli, as the table gave them.
-
-    Returns
-    -------
-    str or None
-        A sentence.
-    """
+    """What to ask if |E*|, converted from `unit`, is impossible, but the bare numbers fit in MPa; None otherwise."""
     as_megapascal = table.assign(E_MPa=table["E_MPa"] * FACTORS[unit])
     if _possible(table, MOST_TESTS) or not _possible(as_megapascal, 1.0):
         return None

@@ -21,27 +21,7 @@ SAME_TEMPERATURE = 1e-6  # K
 def read_tests(
     paths: Sequence[str | Path], numbers: Sequence[str] = (), texts: Sequence[str] = ()
 ) -> pd.DataFrame:
-    """Tables of simulated tests put together.
-
-    Parameters
-    ----------
-    paths : sequence of path
-        CSV files.
-    numbers : sequence of str
-        Further columns of numbers.
-    texts : sequence of str
-        Further columns of text.
-
-    Returns
-    -------
-    DataFrame
-        specimen, KEYS, MODULUS, OF_THE_LAW and the columns named.
-
-    Raises
-    ------
-    InputError
-        For no table, or one that lacks a column.
-    """
+    """Tables of simulated tests put together: specimen, KEYS, MODULUS, OF_THE_LAW and the further columns named."""
     frames = []
     for path in _some(paths):
         table = read_csv(path)
@@ -53,59 +33,17 @@ def read_tests(
 
 
 def read_measured(paths: Sequence[str | Path]) -> pd.DataFrame:
-    """Reduced tables of measurements put together.
-
-    Parameters
-    ----------
-    paths : sequence of path
-        CSV files.
-
-    Returns
-    -------
-    DataFrame
-        One row for each test.
-
-    Raises
-    ------
-    InputError
-        For no table, or one that lacks a column.
-    """
+    """Reduced tables of measurements put together, one row for each test."""
     return pd.concat([read_reduced(path) for path in _some(paths)], ignore_index=True)
 
 
 def origin_of(measured: pd.DataFrame) -> str:
-    """What the measurements are, in a word for legends.
-
-    Parameters
-    ----------
-    measured : DataFrame
-        With a column origin.
-
-    Returns
-    -------
-    str
-        "measured", "reconstructed", or several.
-    """
+    """What the measurements are, in a word for legends: "measured", "reconstructed", or several."""
     return " and ".join(sorted(measured["origin"].unique()))
 
 
 def averages(frame: pd.DataFrame, by: Sequence[str] = KEYS, columns: Sequence[str] = MODULUS) -> pd.DataFrame:
-    """Means over samples.
-
-    Parameters
-    ----------
-    frame : DataFrame
-        Tests.
-    by : sequence of str
-        Columns that tell one point from another.
-    columns : sequence of str
-        To average.
-
-    Returns
-    -------
-    DataFrame
-        Mean of each, its standard deviation `<column>_sd` (NaN for one sample), count.
-    """
+    """Means of `columns` over samples of a point, standard deviations `<column>_sd` (NaN for one sample) and count."""
     groups = frame.groupby(list(by))[list(columns)]
     # Of a sample, so NaN for a single one: zero would say that it scatters by nothing.
     spread = groups.std(ddof=1).add_suffix("_sd")
@@ -113,25 +51,7 @@ def averages(frame: pd.DataFrame, by: Sequence[str] = KEYS, columns: Sequence[st
 
 
 def at_temperature(frame: pd.DataFrame, temperature: float) -> pd.DataFrame:
-    """Rows of one temperature.
-
-    Parameters
-    ----------
-    frame : DataFrame
-        Tests.
-    temperature : float
-        [degC].
-
-    Returns
-    -------
-    DataFrame
-        At least one row.
-
-    Raises
-    ------
-    InputError
-        If there is none.
-    """
+    """Rows of one temperature [degC]; refuses a table that has none."""
     rows = frame[np.abs(frame["temperature_C"] - temperature) < SAME_TEMPERATURE]
     if rows.empty:
         available = ", ".join(f"{value:g}" for value in sorted(frame["temperature_C"].unique()))
@@ -140,25 +60,7 @@ def at_temperature(frame: pd.DataFrame, temperature: float) -> pd.DataFrame:
 
 
 def the_only(paths: Iterable[str | Path], kind: str) -> Path:
-    """The single path of a kind of data that can only be one file.
-
-    Parameters
-    ----------
-    paths : iterable of path
-        Given.
-    kind : str
-        For the message.
-
-    Returns
-    -------
-    path
-        The path.
-
-    Raises
-    ------
-    InputError
-        For none or several.
-    """
+    """The single path given for a `kind` of data; InputError for none or several."""
     paths = list(paths)
     if len(paths) != 1:
         raise InputError(f"{len(paths)} files given as {kind!r}; give exactly one.")

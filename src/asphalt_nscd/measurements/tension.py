@@ -20,21 +20,10 @@ USUAL_STRAIN = 50e-6  # half of the 100e-6 from peak to peak that T 378 aims at
 
 @dataclass(frozen=True)
 class Cylinder(Shape):
-    """Cylinder in tension-compression.
+    """Cylinder in tension-compression: diameter `d` and height `h` in m, masses in kg.
 
-    Parameters
-    ----------
-    d : float
-        Diameter [m].
-    h : float
-        Height [m].
-    mass : float
-        Of the specimen [kg].
-    mobile_mass : float
-        Of the upper plate and what moves with it [kg].
+    `mobile_mass` is that of the upper plate and what moves with it.
 
-    Examples
-    --------
     >>> ampt = Cylinder(d=0.1, h=0.15, mass=2.8, mobile_mass=0.5)
     >>> round(ampt.form_factor(), 2), round(ampt.mass_factor(), 3), f"{ampt.usual_amplitude():.2g} m"
     (19.1, 1.433, '7.5e-06 m')
@@ -85,34 +74,11 @@ class Cylinder(Shape):
         return self.mass / 3.0 + self.mobile_mass
 
     def counted_share(self, poisson: float) -> float:
-        """All of it: a bar in tension has no shear. That plates hold its ends does not count
-        (docs/geometries.md).
-
-        Parameters
-        ----------
-        poisson : float
-            Not looked at.
-
-        Returns
-        -------
-        float
-            1.
-        """
+        """One: a bar in tension has no shear, and that plates hold its ends is not counted (docs/geometries.md)."""
         return 1.0
 
     def line(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """x / h.
-
-        Parameters
-        ----------
-        x : ndarray (n,)
-            Heights [m].
-
-        Returns
-        -------
-        ndarray
-            (n,) 1 at the upper plate.
-        """
+        """Elastic line x / h at heights `x` (n,) [m]: one at the upper plate."""
         return x / self.h
 
     def usual_amplitude(self) -> float:

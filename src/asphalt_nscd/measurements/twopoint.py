@@ -26,22 +26,10 @@ SHARE_OF_PRISM = 33.0 / 140.0
 
 @dataclass(frozen=True)
 class Geometry(Shape):
-    """Trapezoidal specimen, Fig. 1a.
+    """Trapezoidal specimen, Fig. 1a: lengths in m, masses in kg.
 
-    Parameters
-    ----------
-    b : float
-        Width of the head [m].
-    B : float
-        Width of the foot [m].
-    e : float
-        Thickness [m].
-    h : float
-        Height [m].
-    mass : float
-        Of the specimen [kg].
-    mobile_mass : float
-        Of the equipment that moves with the head [kg].
+    `b` and `B` are the widths of head and foot, `e` the thickness, `h` the height; `mobile_mass` is that of the
+    equipment that moves with the head.
     """
 
     b: float
@@ -103,34 +91,14 @@ class Geometry(Shape):
         return mass_factor(self)
 
     def counted_share(self, poisson: float) -> float:
-        """Bending, without shear.
-
-        Parameters
-        ----------
-        poisson : float
-            Of the specimen.
-
-        Returns
-        -------
-        float
-            Share of the static displacement.
-        """
+        """Share of the static displacement of the head that is bending, without shear."""
         return bending_share(self, poisson)
 
     def line(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Elastic line of the cantilever under a force at its free head.
+        """Elastic line (n,) of the cantilever under a force at its free head, where it is one.
 
-        w'' ~ (h - x) / width(x)^3, the bending theory behind Eq. (3), integrated by the trapezoidal rule.
-
-        Parameters
-        ----------
-        x : ndarray (n,)
-            Heights [m], which rise from 0 to h.
-
-        Returns
-        -------
-        ndarray
-            (n,) 1 at the head.
+        w'' ~ (h - x) / width(x)^3, the bending theory behind Eq. (3), is integrated by the trapezoidal rule over
+        heights `x` (n,) [m], which rise from 0 to h.
         """
         curvature = (self.h - x) / (self.B - (self.B - self.b) * x / self.h) ** 3
         step = np.diff(x)
@@ -148,24 +116,12 @@ PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
 
 
 def form_factor(geometry: Geometry) -> float:
-    """Form factor gamma, Eq. (3).
+    """Form factor gamma [1/m], Eq. (3).
 
     With x = 1 - b/B, Eq. (3) reads gamma = 12 h^3 / (e B^3) (-ln(1-x) - x - x^2/2) / x^3. The quotient tends
     to 1/3 as b -> B (a prismatic cantilever: 4 h^3 / (e B^3)); near that limit it is summed as the series 1/3
     + x/4 + x^2/5 + ..., because the closed form cancels.
 
-    Parameters
-    ----------
-    geometry : Geometry
-        Trapezoid.
-
-    Returns
-    -------
-    float
-        [1/m].
-
-    Examples
-    --------
     >>> round(form_factor(PAPER), 1)  # the paper prints 25.1 1/mm
     25095.8
     """
@@ -179,25 +135,11 @@ def form_factor(geometry: Geometry) -> float:
 
 
 def bending_share(geometry: Geometry, poisson: float) -> float:
-    """Part of the static deflection of a Timoshenko beam that is bending, the only part that Eq. (3) counts.
+    """Share (0 to 1) of a Timoshenko beam's static deflection that is bending, all that Eq. (3) counts.
 
-    A beam has its modulus E times this by Eqs. (1)-(3). Shear: integral of F / (k G A) over the height, G = E
-    / (2 (1 + nu)), k = 10 (1 + nu) / (12 + 11 nu) of a rectangle (Cowper 1966).
+    A beam has its modulus E times this by Eqs. (1)-(3). Shear: integral of F / (k G A) over the height, G = E / (2 (1 +
+    nu)), k = 10 (1 + nu) / (12 + 11 nu) of a rectangle (Cowper 1966); nu is `poisson`.
 
-    Parameters
-    ----------
-    geometry : Geometry
-        Trapezoid.
-    poisson : float
-        nu.
-
-    Returns
-    -------
-    float
-        0 to 1.
-
-    Examples
-    --------
     >>> round(bending_share(PAPER, 0.35), 3)
     0.968
     """
@@ -209,20 +151,8 @@ def bending_share(geometry: Geometry, poisson: float) -> float:
 
 
 def mass_factor(geometry: Geometry) -> float:
-    """Mass factor mu = 0.135 M + m; of a prism, b = B, 33/140 M + m.
+    """Mass factor mu = 0.135 M + m [kg]; that of a prism, b = B, is 33/140 M + m.
 
-    Parameters
-    ----------
-    geometry : Geometry
-        Trapezoid or prism.
-
-    Returns
-    -------
-    float
-        [kg].
-
-    Examples
-    --------
     >>> round(mass_factor(PAPER), 3)
     0.316
     """
@@ -237,28 +167,10 @@ def complex_modulus(
     displacement_amplitude: ArrayLike,
     phase: ArrayLike,
 ) -> NDArray[np.complex128]:
-    """Complex modulus E* = E1 + i E2 from peak values, Eqs. (1)-(2).
+    """Complex modulus E* = E1 + i E2 [Pa] from peak values, Eqs. (1)-(2).
 
-    Parameters
-    ----------
-    geometry : Geometry
-        Trapezoid.
-    frequency : array_like
-        [Hz].
-    force_amplitude : array_like
-        F0 [N].
-    displacement_amplitude : array_like
-        z0 [m].
-    phase : array_like
-        Psi [rad]. All are scalars or arrays of one shape.
+    `frequency` in Hz, amplitudes F0 in N and z0 in m, `phase` Psi in rad: scalars or arrays of one shape.
 
-    Returns
-    -------
-    ndarray of complex
-        [Pa], of that shape.
-
-    Examples
-    --------
     >>> modulus = complex_modulus(PAPER, 10.0, force_amplitude=24.0, displacement_amplitude=63e-6, phase=0.3)
     >>> print(f"{modulus / 1e9:.3f} GPa")
     9.165+2.825j GPa
@@ -269,28 +181,10 @@ def complex_modulus(
 def head_response(
     geometry: Geometry, frequency: ArrayLike, modulus: ArrayLike, displacement_amplitude: ArrayLike
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Force and phase at the head: the exact inverse of Eqs. (1)-(2).
+    """Force amplitude F0 [N] and phase Psi [rad] at the head: the exact inverse of Eqs. (1)-(2).
 
-    Parameters
-    ----------
-    geometry : Geometry
-        Trapezoid.
-    frequency : array_like
-        [Hz].
-    modulus : array_like
-        E* [Pa].
-    displacement_amplitude : array_like
-        z0 [m]. All are scalars or arrays of one shape.
+    `frequency` in Hz, `modulus` E* in Pa, `displacement_amplitude` z0 in m: scalars or arrays of one shape.
 
-    Returns
-    -------
-    ndarray
-        Force amplitude F0 [N].
-    ndarray
-        Phase Psi [rad].
-
-    Examples
-    --------
     >>> force, phase = head_response(PAPER, frequency=10.0, modulus=10e9, displacement_amplitude=63e-6)
     >>> print(f"{force:.2f} N, {phase:.1f} rad")
     25.03 N, 0.0 rad
@@ -301,25 +195,10 @@ def head_response(
 
 
 def norm_and_phase(modulus: ArrayLike) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Norm and phase of E*, Eqs. (4)-(5).
+    """Norm [Pa] and phase angle [rad] of E* [Pa], Eqs. (4)-(5).
 
-    Eq. (5) prints arctan(E2/E1); the angle in (-pi, pi] agrees with it where E1 > 0 and does not hide a
-    negative E1.
+    Eq. (5) prints arctan(E2/E1); the angle in (-pi, pi] agrees with it where E1 > 0 and does not hide a negative E1.
 
-    Parameters
-    ----------
-    modulus : array_like
-        E* [Pa].
-
-    Returns
-    -------
-    ndarray
-        Norm [Pa].
-    ndarray
-        Phase [rad].
-
-    Examples
-    --------
     >>> norm, phase = norm_and_phase(3e9 + 4e9j)
     >>> print(f"{norm / 1e9:.0f} GPa, {phase:.4f} rad")
     5 GPa, 0.9273 rad

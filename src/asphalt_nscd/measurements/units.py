@@ -26,18 +26,6 @@ MEGAPASCAL = {
 def celsius_of_fahrenheit(degrees: Degrees) -> Degrees:
     """Temperature in degC of one in degF.
 
-    Parameters
-    ----------
-    degrees : float or ndarray
-        [degF].
-
-    Returns
-    -------
-    float or ndarray
-        [degC].
-
-    Examples
-    --------
     >>> celsius_of_fahrenheit(14.0)
     -10.0
     """

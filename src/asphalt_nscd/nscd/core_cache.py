@@ -16,18 +16,7 @@ def core_folder() -> str:
 
 
 def is_compiled(kernel: str) -> bool:
-    """Whether a kernel has been compiled from these sources.
-
-    Parameters
-    ----------
-    kernel : str
-        Named as `granular.step`.
-
-    Returns
-    -------
-    bool
-        True if it stands in `core_folder`.
-    """
+    """Whether a kernel named as `granular.step` has been compiled from these sources."""
     return any(Path(core_folder()).glob(f"*/{kernel}-*.nbi"))
 
 

@@ -39,20 +39,7 @@ class _LanesModel(models.PrimitiveModel):
 
 
 def aligned(shape: tuple[int, ...], number: type[np.floating] = np.float64) -> np.ndarray:
-    """Zeros of which each row of lanes is one cache line or half of one; rows across two take longer to read.
-
-    Parameters
-    ----------
-    shape : tuple of int
-        Of the array.
-    number : type
-        Of double precision or of single.
-
-    Returns
-    -------
-    ndarray
-        Of this shape.
-    """
+    """Zeros of which each row of lanes is one cache line or half of one; rows across two take longer to read."""
     size = int(np.prod(shape))
     room = np.zeros(size + 2 * WIDTH, number)
     start = -room.ctypes.data % LINE // room.itemsize
@@ -154,20 +141,7 @@ def zeros_of(typing_context: Any, array: Any) -> Any:
 
 @intrinsic
 def broadcast(typing_context: Any, value: Any) -> Any:
-    """One number in all lanes.
-
-    Parameters
-    ----------
-    typing_context : Any
-        Of numba, which passes it; a call leaves it out.
-    value : float
-        Of double precision.
-
-    Returns
-    -------
-    lanes
-        Of double precision.
-    """
+    """One number in all lanes, of double precision."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         lanes = ir.Constant(_lanes.vector, ir.Undefined)
@@ -192,22 +166,7 @@ def sqrt(typing_context: Any, value: Any) -> Any:
 
 @intrinsic
 def select_greater(typing_context: Any, a: Any, b: Any, then: Any, otherwise: Any) -> Any:
-    """In each lane `then` if a > b, else `otherwise`.
-
-    Parameters
-    ----------
-    typing_context : Any
-        Of numba, which passes it; a call leaves it out.
-    a, b : lanes
-        Compared as ordered numbers: NaN is not greater than anything.
-    then, otherwise : lanes
-        Of double precision, as a and b.
-
-    Returns
-    -------
-    lanes
-        One of the two in each lane, without a branch.
-    """
+    """In each lane `then` if a > b, else `otherwise`; NaN is not greater than anything."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         # ordered: NaN is not greater than anything and takes `otherwise`
@@ -218,20 +177,7 @@ def select_greater(typing_context: Any, a: Any, b: Any, then: Any, otherwise: An
 
 @intrinsic
 def above(typing_context: Any, a: Any, b: Any) -> Any:
-    """An int64 of which bit k is set if a > b in lane k.
-
-    Parameters
-    ----------
-    typing_context : Any
-        Of numba, which passes it; a call leaves it out.
-    a, b : lanes
-        Of double precision.
-
-    Returns
-    -------
-    int64
-        Between 0 and 255; zero where no lane is above.
-    """
+    """An int64 (0 to 255) of which bit k is set if a > b in lane k, for lanes of double precision."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         bits = builder.bitcast(builder.fcmp_ordered(">", *arguments), ir.IntType(WIDTH))
@@ -242,22 +188,7 @@ def above(typing_context: Any, a: Any, b: Any) -> Any:
 
 @intrinsic
 def load(typing_context: Any, array: Any, block: Any, row: Any) -> Any:
-    """array[block, row, :].
-
-    Parameters
-    ----------
-    typing_context : Any
-        Of numba, which passes it; a call leaves it out.
-    array : ndarray (b, rows, WIDTH)
-        Of `aligned`, of double precision or of single.
-    block, row : int
-        Place of the line.
-
-    Returns
-    -------
-    lanes
-        Of the numbers that the array has.
-    """
+    """The lanes array[block, row, :] of an `aligned` array (b, rows, WIDTH), double or single precision."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments)
@@ -268,19 +199,7 @@ def load(typing_context: Any, array: Any, block: Any, row: Any) -> Any:
 
 @intrinsic
 def store(typing_context: Any, array: Any, block: Any, row: Any, value: Any) -> Any:
-    """array[block, row, :] = value.
-
-    Parameters
-    ----------
-    typing_context : Any
-        Of numba, which passes it; a call leaves it out.
-    array : ndarray (b, rows, WIDTH)
-        Of `aligned`, of double precision or of single.
-    block, row : int
-        Place of the line.
-    value : lanes
-        Of the numbers that the array has.
-    """
+    """Write lanes to array[block, row, :], whose precision they have; `array` (b, rows, WIDTH) is `aligned`."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments[:3])
@@ -292,23 +211,9 @@ def store(typing_context: Any, array: Any, block: Any, row: Any, value: Any) -> 
 
 @intrinsic
 def gather(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any) -> Any:
-    """Of an array (n, WIDTH) the rows numbers[block, side, :]: one a lane, a tuple of WIDTH columns.
+    """The rows numbers[block, side, :] of an array (n, WIDTH), one a lane, as a tuple of WIDTH columns.
 
-    Parameters
-    ----------
-    typing_context : Any
-        Of numba, which passes it; a call leaves it out.
-    array : ndarray (n, WIDTH)
-        A row for each body, of `aligned`.
-    numbers : ndarray of int (b, sides, WIDTH)
-        Rows that are asked for, eight for each block and side.
-    block, side : int
-        Place in `numbers`.
-
-    Returns
-    -------
-    tuple of lanes
-        Column k of the eight rows at place k.
+    `array` has a row for each body; `numbers` (b, sides, WIDTH) has eight for each block and side.
     """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
@@ -322,21 +227,7 @@ def gather(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any)
 
 @intrinsic
 def scatter(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any, columns: Any) -> Any:
-    """The reverse of `gather`. Where two lanes name one row, the last one stays.
-
-    Parameters
-    ----------
-    typing_context : Any
-        Of numba, which passes it; a call leaves it out.
-    array : ndarray (n, WIDTH)
-        A row for each body, of `aligned`.
-    numbers : ndarray of int (b, sides, WIDTH)
-        Rows to be written, eight for each block and side.
-    block, side : int
-        Place in `numbers`.
-    columns : tuple of lanes
-        WIDTH of them, as `gather` gives them.
-    """
+    """Write columns to rows of `array`, the reverse of `gather`; where two lanes name one row, the last stays."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         rows = _transposed(builder, cgutils.unpack_tuple(builder, arguments[4]))
@@ -349,20 +240,7 @@ def scatter(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any
 
 @intrinsic
 def total(typing_context: Any, value: Any) -> Any:
-    """Sum of the lanes in double precision, from the first to the last.
-
-    Parameters
-    ----------
-    typing_context : Any
-        Of numba, which passes it; a call leaves it out.
-    value : lanes
-        Of double precision or of single.
-
-    Returns
-    -------
-    float
-        In an order that is the same on every processor, and so with equal bits.
-    """
+    """Sum of the lanes in double precision, first to last on every processor, and so with equal bits."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         # one after another: in the same order on every processor

@@ -27,20 +27,7 @@ _loaded: list[Library] = []  # what is freed takes its functions with it
 
 
 def native(name: str, build: Callable[[], tuple[str, str]]) -> int:
-    """Address of a kernel.
-
-    Parameters
-    ----------
-    name : str
-        Of the kernel.
-    build : callable
-        Gives (symbol, LLVM assembly) where it has not been compiled yet.
-
-    Returns
-    -------
-    int
-        For a call by ctypes.
-    """
+    """Address of a kernel for ctypes; `build` gives (symbol, LLVM assembly) if it is not compiled yet."""
     path = _folder() / f"{name}-{_machine()[1]}.native"
     content = _read(path)
     if content is None:

@@ -58,15 +58,7 @@ def _read(typing_context: Any, array: Any, at: Any) -> Any:
 
 @compiled_for_teams
 def barrier_wait(barrier, members):
-    """Wait until all members are here; then each sees what all others have written.
-
-    Parameters
-    ----------
-    barrier : ndarray
-        Where they meet.
-    members : int
-        How many.
-    """
+    """Wait until all members are here; then each sees what all others have written."""
     if members == 1:
         return
     meeting = _read(barrier, MEETINGS)
@@ -85,32 +77,13 @@ def barrier_wait(barrier, members):
 
 @compiled_for_teams
 def partition(rank, members, count):
-    """What a member takes of some things in a row.
-
-    Parameters
-    ----------
-    rank, members : int
-        Which member of how many.
-    count : int
-        Things.
-
-    Returns
-    -------
-    tuple of int
-        First and end.
-    """
+    """First and end of what a member takes of `count` things in a row."""
     return rank * count // members, (rank + 1) * count // members
 
 
 @compiled_for_teams
 def mark_started(barrier):
-    """What a kernel does first: it tells that this member has Python's lock no longer.
-
-    Parameters
-    ----------
-    barrier : ndarray
-        Where members meet.
-    """
+    """Tell, first of all in a kernel, that this member has Python's lock no longer."""
     _add(barrier, STARTED, 1)
 
 
@@ -198,13 +171,7 @@ class _Member(threading.Thread):
 
 
 class Team:
-    """So many threads, the caller's among them. Close it, or use it as a context.
-
-    Parameters
-    ----------
-    members : int
-        How many.
-    """
+    """So many threads, the caller's among them; close it, or use it as a context."""
 
     def __init__(self, members: int = 1) -> None:
         self.members = members
@@ -212,19 +179,9 @@ class Team:
         self._others = [_Member(rank, members, self._calls) for rank in range(1, members)]
 
     def run(self, kernel: Callable[..., Any], *arguments: Any) -> list[Any]:
-        """Run a kernel by all members. If one fails or the caller is interrupted, meetings end.
+        """Run kernel(rank, members, barrier, *arguments) by all members, and give what each returned.
 
-        Parameters
-        ----------
-        kernel : callable
-            kernel(rank, members, barrier, *arguments), compiled for teams, which begins with `mark_started`.
-        *arguments : object
-            Of the kernel.
-
-        Returns
-        -------
-        list of object
-            What each member returned.
+        It begins with `mark_started`. If one fails or the caller is interrupted, meetings end.
         """
         barrier = np.zeros(32, np.int64)
         try:

@@ -37,20 +37,8 @@ MOST_TURNS = 6  # of a step, in which it learns how far bonds turn
 class WorldBonds:
     """Bonds between spheres, as they are where no sphere has turned and none is stressed.
 
-    Parameters
-    ----------
-    first : ndarray (b,)
-        Sphere.
-    second : ndarray (b,)
-        Sphere.
-    frame : ndarray (b, 3, 3)
-        Rows: normal from first to second, two tangents.
-    point : ndarray (b, 3)
-        Where the bond acts [m].
-    weight : ndarray (3 b,)
-        As of a BondedSystem [m].
-    strength : ndarray (b,)
-        [N].
+    `first` and `second` (b,) are spheres; the rows of `frame` (b, 3, 3) are the normal from first to second and two
+    tangents; `point` (b, 3) [m] is where the bond acts, `weight` (3 b,) [m] as of a BondedSystem, `strength` (b,) in N.
     """
 
     first: np.ndarray
@@ -63,20 +51,10 @@ class WorldBonds:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """What the spheres meet.
+    """Planes, friction and gravity that the spheres of a world meet.
 
-    Parameters
-    ----------
-    plane_point : ndarray (p, 3)
-        [m].
-    plane_normal : ndarray (p, 3)
-        Pointing to the spheres.
-    friction : float
-        Of spheres on spheres.
-    wall_friction : float
-        Of spheres on planes.
-    gravity : tuple of float
-        [m/s2].
+    `plane_point` (p, 3) in m, `plane_normal` (p, 3) pointing to the spheres; `friction` between spheres,
+    `wall_friction` between spheres and planes; `gravity` in m/s2.
     """
 
     plane_point: np.ndarray
@@ -88,28 +66,12 @@ class Surroundings:
 
 @dataclass
 class WorldEnergies:
-    """All in J; stores at the present, less what they were at the beginning; the rest summed since.
+    """Energy account of a world [J]: stores as they changed since the beginning, losses summed since then.
 
-    Parameters
-    ----------
-    kinetic : float
-        Of all spheres.
-    springs : float
-        Stored in the springs of the bonds.
-    load : float
-        Potential of gravity.
-    dashpots : float
-        Dissipated in the dashpots of the bonds.
-    friction : float
-        Dissipated by tangential impulses of contacts.
-    impact : float
-        Dissipated by normal impulses of contacts.
-    fracture : float
-        Stored by bonds when they broke.
-    numerical : float
-        Dissipated by implicit Euler.
-    turning : float
-        Work of the bonds on that part of their openings which is not linear in the motion.
+    Stores: `kinetic`, `springs` of the bonds, `load` (potential of gravity). Losses: `dashpots` of the bonds,
+    `friction` and `impact` (tangential and normal impulses of contacts), `fracture` (what bonds stored when they broke)
+    and `numerical` (by implicit Euler). `turning` is the work of the bonds on that part of their openings which is not
+    linear in the motion.
     """
 
     kinetic: float = 0.0
@@ -129,24 +91,10 @@ class WorldEnergies:
 
 
 class World:
-    """Spheres (n,), some bonded, which advance by steps. Rotations are those since the beginning.
+    """Spheres (n,), some of them bonded, which advance by steps of `dt` [s].
 
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    mass : ndarray (n, 6)
-        Of translations [kg] and rotations [kg m2].
-    bonds : WorldBonds
-        Between spheres.
-    law : AnyLaw
-        Of the bonds.
-    around : Surroundings
-        What the spheres meet.
-    dt : float
-        Step [s].
+    `position` (n, 3) and `radius` (n,) in m; `mass` (n, 6) of translations [kg] and rotations [kg m2]. Rotations are
+    those since the beginning.
     """
 
     def __init__(
@@ -183,29 +131,15 @@ class World:
         return self._openings(self.position, self.rotation)[0]
 
     def cut(self, bonds: np.ndarray) -> None:
-        """Break bonds as with a saw: what they store is lost.
-
-        Parameters
-        ----------
-        bonds : ndarray of bool (b,)
-            Which.
-        """
+        """Break the bonds marked in `bonds` (b,) as with a saw: what they store is lost."""
         now = self._stored()
         self.broken |= bonds
         self._lose(now)
 
     def advance(self) -> int:
-        """One step. Bonds break one after another, the most overstressed first.
+        """Advance by one step and return how many contacts held.
 
-        Returns
-        -------
-        int
-            How many contacts held.
-
-        Raises
-        ------
-        ArithmeticError
-            Where the motion is not finite.
+        Bonds break one after another, the most overstressed first. Raises ArithmeticError if the motion is not finite.
         """
         dt, law, before = self.dt, self._step_law, self.velocity
         # the configuration in the middle of the step, by the velocity before it: openings then err by the
@@ -254,13 +188,7 @@ class World:
         return contacts.impulse.size // 3
 
     def fragments(self) -> np.ndarray:
-        """Which fragment each sphere belongs to.
-
-        Returns
-        -------
-        ndarray of int (n,)
-            Number of the fragment, the largest being 0.
-        """
+        """Number of the fragment that each sphere belongs to (n,), the largest fragment being 0."""
         left = ~self.broken
         number = clusters(self.bonds.first[left], self.bonds.second[left], self.radius.size)
         # the largest first; stable, so that equal ones keep their order from run to run

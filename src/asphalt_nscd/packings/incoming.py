@@ -27,18 +27,8 @@ UP = ("x", "y", "z")
 class Overlaps:
     """What touches and overlaps among spheres.
 
-    Parameters
-    ----------
-    touching : ndarray of int (p, 2)
-        Pairs that touch.
-    largest : float
-        Overlap [m].
-    pair : tuple of int
-        Spheres of the largest overlap, from 1.
-    share : float
-        The largest overlap over the smaller radius.
-    count : int
-        Of pairs that overlap by more than NOTABLE.
+    `touching` (p, 2) holds pairs of spheres; `largest` is the largest overlap [m], `share` the same over the smaller
+    radius, `pair` its two spheres, counted from 1; `count` is the number of pairs that overlap by more than NOTABLE.
     """
 
     touching: NDArray[np.int64]
@@ -49,23 +39,7 @@ class Overlaps:
 
 
 def read_packing(path: str | Path) -> Spheres:
-    """Spheres of a file: CSV, text of YADE, dump of LIGGGHTS or LAMMPS, VTK.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    Spheres
-        In the unit of the file.
-
-    Raises
-    ------
-    InputError
-        For what is no packing.
-    """
+    """Read spheres in the unit of the file: CSV, text of YADE, dump of LIGGGHTS or LAMMPS, or VTK."""
     path = Path(path)
     if path.is_dir():
         raise InputError(f"{path}: a folder; give the file that holds the spheres.")
@@ -77,29 +51,10 @@ def read_packing(path: str | Path) -> Spheres:
 
 
 def as_deposit(spheres: Spheres, unit: str | None = None, up: str = "z") -> tuple[Content, list[str]]:
-    """A packing as a deposit. The longer horizontal side becomes x, the length of the box; the box is as large
-    as the spheres are.
+    """Arrays and attributes of a deposit file made of a packing, and sentences on what was read.
 
-    Parameters
-    ----------
-    spheres : Spheres
-        Of a file.
-    unit : str, optional
-        Of lengths, where the file does not say it.
-    up : str
-        The axis against gravity.
-
-    Returns
-    -------
-    tuple of dict
-        Arrays and attributes of a deposit file.
-    list of str
-        Sentences on what was read.
-
-    Raises
-    ------
-    InputError
-        For an axis that is none, one sphere alone, or radii that are not those of aggregate.
+    The longer horizontal side becomes x, the length of the box; the box is as large as the spheres are. `unit` is that
+    of lengths where the file does not say it; `up` is the axis against gravity.
     """
     if up not in UP:
         raise InputError(f"up {up!r} is no axis; give one of {', '.join(UP)}.")
@@ -147,20 +102,7 @@ def as_deposit(spheres: Spheres, unit: str | None = None, up: str = "z") -> tupl
 
 
 def overlaps(position: NDArray[np.float64], radius: NDArray[np.float64]) -> Overlaps:
-    """What touches and overlaps among spheres.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-
-    Returns
-    -------
-    Overlaps
-        Pairs, and the largest overlap.
-    """
+    """Find what touches and overlaps among spheres; `position` (n, 3) and `radius` (n,) in m."""
     none = np.empty((0, 3))
     start, other = find_pairs(position, radius, none, none, TOUCHING)
     first = np.repeat(np.arange(radius.size), np.diff(start))

@@ -25,29 +25,10 @@ BONDS = "-bonds"  # behind the name of the file of spheres
 
 
 def export_result(source: str | Path, form: str, output: str | Path) -> str:
-    """Write a result file in another form.
+    """Write a result file (HDF5) in another form, "csv" or "vtk", and return one line that says what was written.
 
-    A deposit or specimen is its spheres, in m; a specimen also its bonds, in a file beside; a test its
-    history (csv) or, of its last cycle, what all spheres and bonds do (vtk).
-
-    Parameters
-    ----------
-    source : path
-        HDF5 file.
-    form : str
-        "csv" or "vtk".
-    output : path
-        File to write.
-
-    Returns
-    -------
-    str
-        One line that says what was written.
-
-    Raises
-    ------
-    InputError
-        For another form, another kind of file, or an ending that is not of the form.
+    A deposit or specimen is its spheres, in m; a specimen also its bonds, in a file beside; a test its history (csv)
+    or, of its last cycle, what all spheres and bonds do (vtk).
     """
     output = Path(output)
     if form not in FORMS:

@@ -19,20 +19,9 @@ MOST = 10_000_000
 
 @dataclass(frozen=True)
 class Spheres:
-    """Spheres as a file gives them.
+    """Spheres as a file gives them, with notes on how it was read.
 
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    position : ndarray (n, 3)
-        In `unit`.
-    radius : ndarray (n,)
-        In `unit`.
-    unit : str, optional
-        None where the file does not say it.
-    notes : list of str
-        How it was read.
+    `position` (n, 3) and `radius` (n,) in `unit`, which is None where the file does not say it.
     """
 
     path: Path
@@ -57,24 +46,10 @@ class Spheres:
                 )
 
     def in_metres(self, stated: str | None) -> tuple[Spheres, str]:
-        """The same in m.
+        """The same spheres in m, and a sentence on the unit.
 
-        Parameters
-        ----------
-        stated : str or None
-            The unit, if the user says it; else that of the file, or the one that fits.
-
-        Returns
-        -------
-        Spheres
-            In m.
-        str
-            A sentence on the unit.
-
-        Raises
-        ------
-        InputError
-            For a unit against that of the file, or radii that are not those of aggregate.
+        `stated` is the unit that the user gives; if None it is that of the file, or the one that fits radii of
+        aggregate.
         """
         if stated is not None and self.unit is not None and stated != self.unit:
             raise InputError(f"{self.path}: its columns are in {self.unit}; leave out --unit {stated}.")

@@ -19,23 +19,7 @@ _UNITS = "|".join(UNITS)
 
 
 def read_text(path: Path) -> Spheres:
-    """Spheres of a text file, whichever of the forms it has.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    Spheres
-        In the unit of the file.
-
-    Raises
-    ------
-    InputError
-        For what is empty or no text of spheres.
-    """
+    """Read spheres of a text file, in its unit, whichever of the known forms it has."""
     try:
         text = path.read_text(encoding="utf-8-sig")  # spreadsheets begin with a byte order mark
     except UnicodeDecodeError:

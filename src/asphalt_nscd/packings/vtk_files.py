@@ -19,23 +19,7 @@ RADII = {"radius": 1.0, "radii": 1.0, "r": 1.0, "radius_m": 1.0, "diameter": 0.5
 
 
 def read_points(path: Path) -> Spheres:
-    """Points of VTK with an array of radii or diameters.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    Spheres
-        In the unit of the file.
-
-    Raises
-    ------
-    InputError
-        For no points, no such array, or where VTK is not installed.
-    """
+    """Read spheres from points of a VTK file with an array of radii or diameters, in the unit of the file."""
     vtk = require_vtk()
     kinds = {
         ".vtp": vtk.vtkXMLPolyDataReader,
@@ -81,23 +65,8 @@ def write_poly_data(
 ) -> None:
     """Write points, or lines between them, as .vtp.
 
-    Parameters
-    ----------
-    path : path
-        File to write.
-    position : ndarray (n, 3)
-        [m].
-    of_points : mapping of str to ndarray (n,)
-        Arrays of the points, by name.
-    lines : ndarray of int (l, 2), optional
-        Points that each line joins.
-    of_lines : mapping of str to ndarray (l,), optional
-        Arrays of the lines, by name.
-
-    Raises
-    ------
-    OSError
-        Where VTK could not write the file.
+    `position` (n, 3) in m; `of_points` holds arrays (n,) by name. `lines` (l, 2) are the points that each line joins;
+    `of_lines` holds arrays (l,) by name.
     """
     vtk = require_vtk()
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
@@ -134,15 +103,7 @@ def write_poly_data(
 
 
 def write_series(path: Path, steps: Sequence[tuple[float, Sequence[Path]]]) -> None:
-    """Write files of several times as one series, .pvd of ParaView.
-
-    Parameters
-    ----------
-    path : path
-        File to write.
-    steps : sequence of tuple
-        Each time [s] and its parts, which are named from the folder of the file.
-    """
+    """Write files of several times [s] as one series, .pvd of ParaView; parts are named from the folder of the file."""
     rows = "".join(
         f'<DataSet timestep="{time:.9g}" part="{part}" file="{escape(file.relative_to(path.parent).as_posix())}"/>\n'
         for time, files in steps
@@ -157,18 +118,7 @@ def write_series(path: Path, steps: Sequence[tuple[float, Sequence[Path]]]) -> N
 
 
 def require_vtk() -> Any:
-    """The library.
-
-    Returns
-    -------
-    module
-        vtk.
-
-    Raises
-    ------
-    InputError
-        Where it is not installed.
-    """
+    """The module vtk; raises InputError where it is not installed."""
     try:
         import vtk
     except ImportError:

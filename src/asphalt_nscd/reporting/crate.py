@@ -25,25 +25,9 @@ TITLE = "asphalt-nscd: complex modulus of asphalt concrete by nonsmooth contact 
 
 
 def write_crate(files: Sequence[Path], root: Path, workflow: Path, provenance: Path, output: Path) -> None:
-    """Put files and the workflow into an archive, as the results of one run.
+    """Put files below `root` and the workflow (a Snakefile) into a .zip archive, as the results of one run.
 
-    Parameters
-    ----------
-    files : sequence of path
-        Below root.
-    root : path
-        Of the study.
-    workflow : path
-        Its Snakefile.
-    provenance : path
-        `asphalt-nscd provenance` of the run, which names the study, the commit and the versions of packages.
-    output : path
-        Archive to write (.zip).
-
-    Raises
-    ------
-    InputError
-        If a file is not there.
+    `provenance` is what `asphalt-nscd provenance` wrote of the run: the study, the commit and the versions of packages.
     """
     for path in (*files, workflow, provenance):
         require_readable(path, "run the study first, or check the path")

@@ -75,20 +75,7 @@ class Rungs:
 
 
 def shown(block: str, table: pd.DataFrame) -> str:
-    """The table of a block in Markdown.
-
-    Parameters
-    ----------
-    block : str
-        Its name.
-    table : DataFrame
-        Published.
-
-    Returns
-    -------
-    str
-        Lines of at most 120 characters.
-    """
+    """The published table of a block in Markdown, in lines of at most 120 characters."""
     parts = BLOCKS.get(block, [Layout({str(name): str(name) for name in table.columns})])
     return "\n".join(part.markdown(table) for part in parts)
 

@@ -17,17 +17,7 @@ CHECKSUMS = "SHA256SUMS"
 
 
 def publish(files: Sequence[Path], root: Path, output: Path) -> None:
-    """Copy files, keeping their places, with the list of SHA-256 sums.
-
-    Parameters
-    ----------
-    files : sequence of path
-        Below root.
-    root : path
-        Of the repository.
-    output : path
-        Folder to fill.
-    """
+    """Copy files to a folder, keeping their places below `root`, with the list of SHA-256 sums."""
     for path in files:
         with atomic_path(output / path.relative_to(root)) as temporary:
             shutil.copyfile(path, temporary)
@@ -37,18 +27,7 @@ def publish(files: Sequence[Path], root: Path, output: Path) -> None:
 
 
 def altered(folder: Path) -> list[str]:
-    """What differs from the list of checksums in a published folder.
-
-    Parameters
-    ----------
-    folder : path
-        Published.
-
-    Returns
-    -------
-    list of str
-        A sentence for each file.
-    """
+    """A sentence for each file that differs from the list of checksums in a published folder."""
     sums = folder / CHECKSUMS
     if not sums.is_file():
         return [f"{sums}: is missing"]
@@ -80,19 +59,9 @@ def _sum(path: Path) -> str:
 def fill_blocks(documents: Sequence[Path], blocks: Mapping[str, Path]) -> None:
     """Replace what stands between `<!-- name -->` and `<!-- end name -->` by a table.
 
-    A Markdown source is taken as it is; of a CSV file the table is made (reporting/layouts.py).
-
-    Parameters
-    ----------
-    documents : sequence of path
-        Markdown files, or folders of them; each block stands once in all of them together.
-    blocks : mapping of str to path
-        Source of each block.
-
-    Raises
-    ------
-    InputError
-        If a block is not there, or there twice; then no document has changed.
+    `blocks` names the source of each block: a Markdown source is taken as it is; of a CSV file the table is made
+    (reporting/layouts.py). `documents` are Markdown files or folders of them. Each block must stand once in all of them
+    together; else nothing is changed.
     """
     pages = [page for path in documents for page in (sorted(path.glob("*.md")) if path.is_dir() else [path])]
     before = {page: page.read_text(encoding="utf-8") for page in pages}

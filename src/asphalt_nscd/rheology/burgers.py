@@ -19,19 +19,9 @@ PARAMETERS = Range(low=1e-3, high=1e20)
 class Burgers:
     """Macroscopic Burgers law of one temperature, Eqs. (27)-(29).
 
-    Parameters
-    ----------
-    modulus_m : float
-        E_m, spring of the Maxwell element [Pa].
-    viscosity_m : float
-        eta_m, dashpot of the Maxwell element [Pa s].
-    modulus_k : float
-        E_k, spring of the Kelvin-Voigt element [Pa].
-    viscosity_k : float
-        eta_k, dashpot of the Kelvin-Voigt element [Pa s].
+    Maxwell element: spring `modulus_m` (E_m) [Pa] and dashpot `viscosity_m` (eta_m) [Pa s]; Kelvin-Voigt element:
+    spring `modulus_k` (E_k) [Pa] and dashpot `viscosity_k` (eta_k) [Pa s].
 
-    Examples
-    --------
     >>> law = Burgers(modulus_m=24.3e9, viscosity_m=3.71e9, modulus_k=48.4e9, viscosity_k=0.773e9)
     >>> modulus = law.complex_modulus(2 * np.pi * 10)
     >>> print(f"{abs(modulus) / 1e9:.2f} GPa, {np.degrees(np.angle(modulus)):.1f} deg")
@@ -52,28 +42,11 @@ class Burgers:
                 )
 
     def as_chain(self) -> KelvinChain:
-        """The same law as a Kelvin chain of one element.
-
-        Returns
-        -------
-        KelvinChain
-            The chain; no approximation.
-        """
+        """The same law as a Kelvin chain of one element, without approximation."""
         return KelvinChain(self.modulus_m, self.viscosity_m, (self.modulus_k,), (self.viscosity_k,))
 
     def complex_compliance(self, omega: ArrayLike) -> NDArray[np.complex128]:
-        """Complex compliance, Eqs. (28)-(29).
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequencies [rad/s].
-
-        Returns
-        -------
-        ndarray of complex
-            D* = D' - i D'' [1/Pa], of the shape of omega.
-        """
+        """Complex compliance D* = D' - i D'' [1/Pa] at angular frequencies [rad/s], Eqs. (28)-(29)."""
         i_omega = 1j * np.asarray(omega, dtype=float)
         return (
             1.0 / self.modulus_m
@@ -82,50 +55,18 @@ class Burgers:
         )
 
     def complex_modulus(self, omega: ArrayLike) -> NDArray[np.complex128]:
-        """Complex modulus, Eq. (27).
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequencies [rad/s].
-
-        Returns
-        -------
-        ndarray of complex
-            E* = 1/D* [Pa], of the shape of omega.
-        """
+        """Complex modulus E* = 1/D* [Pa] at angular frequencies [rad/s], Eq. (27)."""
         return 1.0 / self.complex_compliance(omega)
 
     def creep_compliance(self, time: ArrayLike) -> NDArray[np.float64]:
-        """Strain per unit of constant stress.
-
-        Parameters
-        ----------
-        time : array_like
-            After loading [s].
-
-        Returns
-        -------
-        ndarray
-            D(t) [1/Pa], of the shape of time.
-        """
+        """Strain per unit of constant stress, D(t) [1/Pa], at times after loading [s]."""
         return self.as_chain().creep_compliance(time)
 
     def relaxation_modulus(self, time: ArrayLike) -> NDArray[np.float64]:
-        """Stress per unit of constant strain.
+        """Stress per unit of constant strain, E(t) [Pa], at times after loading [s].
 
-        Inverse Laplace transform of 1/(s D(s)), D(s) = 1/E_m + 1/(s eta_m) + 1/(E_k + s eta_k): two
-        exponentials whose rates are the roots of p2 s^2 - p1 s + 1 (Findley, Lai & Onaran 1976, ch. 5).
-
-        Parameters
-        ----------
-        time : array_like
-            After loading [s].
-
-        Returns
-        -------
-        ndarray
-            E(t) [Pa], of the shape of time.
+        Inverse Laplace transform of 1/(s D(s)), D(s) = 1/E_m + 1/(s eta_m) + 1/(E_k + s eta_k): two exponentials whose
+        rates are the roots of p2 s^2 - p1 s + 1 (Findley, Lai & Onaran 1976, ch. 5).
         """
         time = np.asarray(time, dtype=float)
         retardation = self.viscosity_k / self.modulus_k

@@ -14,19 +14,9 @@ from asphalt_nscd.files.errors import InputError
 class KelvinChain:
     """Law of one temperature: a spring, a dashpot and Kelvin-Voigt elements in series.
 
-    Parameters
-    ----------
-    spring : float
-        Modulus of the spring [Pa]; infinite where the chain has none.
-    dashpot : float
-        Viscosity of the dashpot [Pa s]; infinite where the chain has none.
-    kelvin_springs : tuple of float (m,)
-        Moduli of the Kelvin-Voigt elements [Pa].
-    kelvin_dashpots : tuple of float (m,)
-        Viscosities of the Kelvin-Voigt elements [Pa s].
+    `spring` [Pa] and `dashpot` [Pa s] are infinite where the chain has none; `kelvin_springs` (m,) in Pa,
+    `kelvin_dashpots` (m,) in Pa s.
 
-    Examples
-    --------
     >>> complex(KelvinChain(10e9, np.inf, (), ()).complex_modulus(2 * np.pi * 10))
     (10000000000+0j)
     """
@@ -51,17 +41,9 @@ class KelvinChain:
             raise InputError("Kelvin chain: it is empty; give a spring, a dashpot or an element.")
 
     def complex_compliance(self, omega: ArrayLike) -> NDArray[np.complex128]:
-        """Complex compliance, D* = 1/E + 1/(i omega eta) + sum of 1/(E_k + i omega eta_k).
+        """Complex compliance D* = D' - i D'' [1/Pa] at angular frequencies [rad/s].
 
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequencies [rad/s].
-
-        Returns
-        -------
-        ndarray of complex
-            D* = D' - i D'' [1/Pa], of the shape of omega.
+        D* = 1/E + 1/(i omega eta) + sum of 1/(E_k + i omega eta_k).
         """
         i_omega = 1j * np.asarray(omega, dtype=float)
         elements = np.asarray(self.kelvin_springs) + i_omega[..., None] * np.asarray(self.kelvin_dashpots)
@@ -69,33 +51,11 @@ class KelvinChain:
         return 1.0 / self.spring + 1.0 / self.dashpot / i_omega + (1.0 / elements).sum(axis=-1)
 
     def complex_modulus(self, omega: ArrayLike) -> NDArray[np.complex128]:
-        """Complex modulus.
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequencies [rad/s].
-
-        Returns
-        -------
-        ndarray of complex
-            E* = 1/D* [Pa], of the shape of omega.
-        """
+        """Complex modulus E* = 1/D* [Pa] at angular frequencies [rad/s]."""
         return 1.0 / self.complex_compliance(omega)
 
     def creep_compliance(self, time: ArrayLike) -> NDArray[np.float64]:
-        """Strain per unit of constant stress.
-
-        Parameters
-        ----------
-        time : array_like
-            After loading [s].
-
-        Returns
-        -------
-        ndarray
-            D(t) [1/Pa], of the shape of time.
-        """
+        """Strain per unit of constant stress, D(t) [1/Pa], at times after loading [s]."""
         time = np.asarray(time, dtype=float)
         rates = np.divide(self.kelvin_springs, self.kelvin_dashpots)
         # expm1, for 1 - exp cancels where a slow element has barely begun to creep.
@@ -103,18 +63,7 @@ class KelvinChain:
         return 1.0 / self.spring + time / self.dashpot + delayed.sum(axis=-1)
 
     def scaled(self, factor: float) -> KelvinChain:
-        """The chain with another stiffness and the same times.
-
-        Parameters
-        ----------
-        factor : float
-            Of E* at every frequency.
-
-        Returns
-        -------
-        KelvinChain
-            E* times factor.
-        """
+        """The chain with E* times `factor` at every frequency, and the same retardation times."""
         springs = tuple(factor * value for value in self.kelvin_springs)
         dashpots = tuple(factor * value for value in self.kelvin_dashpots)
         return KelvinChain(factor * self.spring, factor * self.dashpot, springs, dashpots)

@@ -24,32 +24,10 @@ def chain_law(
     factor: float,
     output: str | Path,
 ) -> dict[str, Any]:
-    """Write the Kelvin chain of a continuous law at one temperature.
+    """Write the Kelvin chain of a continuous law at one temperature [degC] as JSON, and return its content.
 
-    Parameters
-    ----------
-    spectrum : path
-        File of the law of all temperatures.
-    temperature : float
-        [degC].
-    lowest_hz, highest_hz : float
-        The band that it follows the law in [Hz].
-    tolerance : float
-        Largest |ln(E_chain / E)| over the band.
-    factor : float
-        Of its moduli.
-    output : path
-        JSON file to write.
-
-    Returns
-    -------
-    dict
-        Content of the file.
-
-    Raises
-    ------
-    InputError
-        Where no chain of few enough elements meets the tolerance.
+    The chain follows the law between `lowest_hz` and `highest_hz` within `tolerance`, the largest |ln(E_chain / E)|;
+    then its moduli are multiplied by `factor`. Raises InputError where no chain of few enough elements does.
     """
     content = chain_at(
         read_spectrum(spectrum), str(spectrum), temperature, (lowest_hz, highest_hz), tolerance, factor
@@ -66,32 +44,10 @@ def chain_at(
     tolerance: float,
     factor: float = 1.0,
 ) -> dict[str, Any]:
-    """The Kelvin chain of a law at one temperature, as its file has it.
+    """Content of the file of a law's Kelvin chain at one temperature [degC].
 
-    Parameters
-    ----------
-    law : Spectrum
-        Of all temperatures.
-    name : str
-        Of the law, kept as the source.
-    temperature : float
-        [degC].
-    band : tuple of float
-        Lowest and highest frequency [Hz].
-    tolerance : float
-        Largest |ln(E_chain / E)| over the band.
-    factor : float
-        Of the moduli of the chain.
-
-    Returns
-    -------
-    dict
-        Content of the file.
-
-    Raises
-    ------
-    InputError
-        Where no chain of few enough elements meets the tolerance.
+    `band` is the lowest and highest frequency [Hz], `tolerance` the largest |ln(E_chain / E)| in it; `factor`
+    multiplies the moduli. Raises InputError where no chain of few enough elements meets the tolerance.
     """
     lowest_hz, highest_hz = band
     try:

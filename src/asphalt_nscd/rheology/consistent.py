@@ -28,20 +28,7 @@ GAIN = 1e4  # brings squares of ln E* to order one
 
 
 def nearest(printed: Printed, wanted: Complex) -> Complex | None:
-    """The nearest data of which the law is the fit and its two errors are the printed ones.
-
-    Parameters
-    ----------
-    printed : Printed
-        Law and errors of one temperature.
-    wanted : ndarray of complex (n,)
-        ln E* to be near to.
-
-    Returns
-    -------
-    ndarray of complex (n,) or None
-        ln E*; None where none is found.
-    """
+    """ln E* (n,) nearest to `wanted` that has the law as its fit and the two printed errors; None if not found."""
     law = np.log(printed.modulus)
     n, angle = law.size, law.imag
     free = null_space(log_slopes(printed.law, printed.omega).T)  # of errors that leave the fit where it is
@@ -95,25 +82,10 @@ def _sign(error: Vector, corner: float) -> Vector:
 def nearest_law(
     printed: Sequence[Printed], temperature: Vector, smooth: Complex, reference: float
 ) -> tuple[Complex, float]:
-    """A 2S2P1D law for all temperatures near data that meet all that is printed.
+    """ln E* (t, n) of a 2S2P1D law near data that meet all that is printed, and the distance that remains.
 
-    Parameters
-    ----------
-    printed : sequence of Printed (t,)
-        Law and errors of each temperature.
-    temperature : ndarray (t,)
-        [degC].
-    smooth : ndarray of complex (t, n)
-        ln E* of the law to start from.
-    reference : float
-        Temperature of the shift [degC].
-
-    Returns
-    -------
-    ndarray of complex (t, n)
-        ln E* of the law.
-    float
-        The distance that remains, the root mean square of one part of ln E*.
+    `temperature` (t,) and `reference` (of the shift) in degC; `smooth` (t, n) is ln E* of the law to start from. The
+    distance is the root mean square of one part of ln E*.
     """
     omega = np.tile(printed[0].omega, len(printed))
     each = np.repeat(temperature, printed[0].omega.size)
@@ -131,30 +103,10 @@ def nearest_law(
 
 
 def draws(printed: Sequence[Printed], law: Complex, scatter: float, number: int, seed: int) -> Complex:
-    """Data that meet all that is printed, scattered about a law.
+    """Draw data that meet all that is printed, scattered about a law: ln E* (number, t, n).
 
-    Parameters
-    ----------
-    printed : sequence of Printed (t,)
-        Law and errors of each temperature.
-    law : ndarray of complex (t, n)
-        ln E* of the smooth law.
-    scatter : float
-        Standard deviation of each part of ln E*.
-    number : int
-        Of draws.
-    seed : int
-        The same seed gives the same draws.
-
-    Returns
-    -------
-    ndarray of complex
-        (number, t, n) ln E*.
-
-    Raises
-    ------
-    InputError
-        Where no data meet the printed laws and errors.
+    `law` (t, n) is ln E* of the smooth law; `scatter` is the standard deviation of each part of ln E*. Raises
+    InputError where no data meet the printed laws and errors.
     """
     found = np.empty((number, *law.shape), complex)
     for k in range(number):

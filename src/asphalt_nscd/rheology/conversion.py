@@ -24,33 +24,11 @@ FITTED, TESTED = 30, 300  # frequencies in a decade for the fit, and between the
 def kelvin_chain(
     modulus: Modulus, lowest_omega: float, highest_omega: float, tolerance: float = 1e-3
 ) -> tuple[KelvinChain, float]:
-    """A continuous law at one temperature as a Kelvin chain.
+    """A continuous law at one temperature as a Kelvin chain, and its error over a band [rad/s].
 
-    Elements are added, their retardation times evenly spaced on a logarithmic scale, until the error is met;
-    compliances are a non-negative least-squares fit, so that the chain is passive. Outside the band it is
-    whatever follows from within.
-
-    Parameters
-    ----------
-    modulus : callable
-        E* [Pa] at angular frequencies (n,) [rad/s].
-    lowest_omega, highest_omega : float
-        The band [rad/s].
-    tolerance : float
-        Largest error.
-
-    Returns
-    -------
-    KelvinChain
-        The chain.
-    float
-        Its error, max |ln(E_chain / E)| over the band.
-
-    Raises
-    ------
-    InputError
-        For a band that is none, a law that is not finite in it, or where more elements than `MOST_ELEMENTS` were
-        needed.
+    `modulus` gives E* [Pa] at angular frequencies (n,) [rad/s]. Elements are added, their retardation times evenly
+    spaced on a logarithmic scale, until the error, max |ln(E_chain / E)|, is within `tolerance`; compliances are a
+    non-negative least-squares fit, so that the chain is passive. Outside the band it is whatever follows from within.
     """
     if not 0.0 < lowest_omega <= highest_omega < np.inf:
         raise InputError(

@@ -17,54 +17,14 @@ from asphalt_nscd.rheology.laws_io import law_content
 
 
 def fit_temperature(measured: str | Path, temperature: float, output: str | Path) -> dict[str, Any]:
-    """Fit the Burgers law to all specimens of a reduced table at one temperature, and write it.
-
-    Parameters
-    ----------
-    measured : path
-        Table with temperature_C, frequency_Hz, E_MPa and phase_deg.
-    temperature : float
-        [degC].
-    output : path
-        JSON file to write.
-
-    Returns
-    -------
-    dict
-        Content of the file.
-
-    Raises
-    ------
-    InputError
-        Where the table holds too few frequencies at this temperature.
-    """
+    """Fit the Burgers law to all specimens of a reduced table at one temperature [degC], and write it as JSON."""
     content = burgers_at(read_reduced(measured), temperature, str(measured))
     write_json(output, content)
     return content
 
 
 def burgers_at(frame: pd.DataFrame, temperature: float, name: str) -> dict[str, Any]:
-    """The Burgers law fitted to the rows of one temperature, as its file has it.
-
-    Parameters
-    ----------
-    frame : DataFrame
-        Columns temperature_C, frequency_Hz, E_MPa, phase_deg.
-    temperature : float
-        [degC].
-    name : str
-        Of the table, for a refusal.
-
-    Returns
-    -------
-    dict
-        Content of the file.
-
-    Raises
-    ------
-    InputError
-        Where the table holds too few frequencies at this temperature.
-    """
+    """Content of the file of the Burgers law fitted to one temperature [degC]; `name` is for a refusal."""
     try:
         points = at_temperature(frame, temperature)
         modulus = points["E_MPa"] * 1e6 * np.exp(1j * np.radians(points["phase_deg"]))

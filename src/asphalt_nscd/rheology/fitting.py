@@ -29,31 +29,12 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Fit(Generic[Law]):
-    """A fitted law.
+    """A fitted law; covariances are those of the logarithms of `parameters` (p,).
 
-    Parameters
-    ----------
-    law : Law
-        With the fitted parameters.
-    std_error : dict of str to float, or None
-        Standard error of each parameter, by field name and in its unit, all points taken as independent (a
-        scatter common to a whole specimen is not). None where the points do not outnumber the parameters or
-        do not determine them all.
-    rms_log_residual : float
-        Root mean square of |ln(E_measured / E_law)| over the points.
-    freedom : int
-        Residuals (two for each point) less the parameters that the points determine.
-    unseen : tuple of str
-        Parameters that the points do not determine. Those at a bound of the fit or without effect have no
-        standard error, and those of the others hold them fixed.
-    from_prior : tuple of str
-        Those of the unseen that have the value, and nearly the standard error, of a prior.
-    covariance : ndarray (p, p), optional
-        Of the logarithms of `parameters`, zero where there is no standard error.
-    response : ndarray (p, 2n), optional
-        Change of these logarithms with ln|E*| and the phase of the points.
-    of_prior : ndarray (p, p), optional
-        What the prior leaves open of these logarithms.
+    `std_error` takes points as independent (scatter common to a specimen is not); None if they do not suffice.
+    `freedom`: two a point less determined parameters. `unseen`: not determined by the points; at a bound or without
+    effect they have no error and are held for the others; `from_prior`: those at a prior's value. `covariance` (p, p),
+    zero without an error; `of_prior` (p, p), what the prior leaves open; `response` (p, 2n) to ln|E*| and phase.
     """
 
     law: Law
@@ -67,17 +48,9 @@ class Fit(Generic[Law]):
     of_prior: NDArray | None = None
 
     def under(self, points: NDArray) -> Fit[Law]:
-        """The same fit to points of another covariance than it assumed.
+        """The same law, with the standard errors that follow from another covariance of the points.
 
-        Parameters
-        ----------
-        points : ndarray (2n, 2n)
-            Covariance of ln|E*|, then of the phase, of the points.
-
-        Returns
-        -------
-        Fit
-            With other standard errors; the law stays.
+        `points` (2n, 2n) is that of ln|E*|, then of the phase.
         """
         if self.response is None or self.of_prior is None:
             return self
@@ -91,20 +64,7 @@ class Fit(Generic[Law]):
         return replace(self, covariance=covariance, std_error=std_error)
 
     def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
-        """Confidence interval of a parameter that has a standard error: Student's t on its logarithm.
-
-        Parameters
-        ----------
-        name : str
-            Of the parameter.
-        level : float
-            Probability that the interval holds it.
-
-        Returns
-        -------
-        tuple of float
-            Lower and upper end, in the unit of the parameter.
-        """
+        """Confidence interval of a parameter with a standard error, in its unit, by Student's t on its logarithm."""
         value, error = parameters(self.law)[name], (self.std_error or {})[name]
         # on the logarithm, in which the law was fitted: the lower end stays above zero
         factor = float(np.exp(stdtrit(self.freedom, 0.5 + 0.5 * level) * error / value))
@@ -112,27 +72,8 @@ class Fit(Generic[Law]):
 
 
 def fit_burgers(omega: ArrayLike, modulus: ArrayLike) -> Fit[Burgers]:
-    """Fit a Burgers law of one temperature.
+    """Fit a Burgers law of one temperature to E* (n,) [Pa] at two or more angular frequencies (n,) [rad/s].
 
-    Parameters
-    ----------
-    omega : array_like (n,)
-        Angular frequencies [rad/s].
-    modulus : array_like of complex (n,)
-        E* [Pa].
-
-    Returns
-    -------
-    Fit of Burgers
-        The law and its standard errors.
-
-    Raises
-    ------
-    InputError
-        For fewer than two frequencies, and what `require_points` refuses.
-
-    Examples
-    --------
     >>> omega = 2 * np.pi * np.array([3.0, 10.0, 40.0])
     >>> fit = fit_burgers(omega, Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9).complex_modulus(omega))
     >>> print(f"E_m = {fit.law.modulus_m / 1e9:.1f} GPa, eta_m = {fit.law.viscosity_m / 1e9:.2f} GPa s")
@@ -164,27 +105,7 @@ def fit_burgers(omega: ArrayLike, modulus: ArrayLike) -> Fit[Burgers]:
 
 
 def require_points(omega: ArrayLike, modulus: ArrayLike) -> tuple[Vector, NDArray[np.complex128]]:
-    """Frequencies and moduli as vectors, refused where they cannot be fitted.
-
-    Parameters
-    ----------
-    omega : array_like
-        Angular frequencies [rad/s].
-    modulus : array_like
-        E* [Pa], one for each.
-
-    Returns
-    -------
-    ndarray (n,)
-        omega.
-    ndarray of complex (n,)
-        E*.
-
-    Raises
-    ------
-    InputError
-        For no points, numbers that differ, or values that are zero, negative or not finite.
-    """
+    """Angular frequencies [rad/s] and E* [Pa] as vectors (n,), refused unless positive, finite and one to one."""
     omega, modulus = np.asarray(omega, dtype=float), np.asarray(modulus, dtype=complex)
     if omega.shape != modulus.shape or omega.ndim != 1 or omega.size == 0:
         raise InputError(
@@ -198,20 +119,7 @@ def require_points(omega: ArrayLike, modulus: ArrayLike) -> tuple[Vector, NDArra
 
 
 def log_residual(measured: NDArray[np.complex128], law: NDArray[np.complex128]) -> Vector:
-    """ln(E_measured / E_law), both parts after each other.
-
-    Parameters
-    ----------
-    measured : ndarray of complex (n,)
-        E* [Pa].
-    law : ndarray of complex (n,)
-        E* [Pa].
-
-    Returns
-    -------
-    ndarray
-        (2n,) Relative errors of the norm, then errors of the phase [rad].
-    """
+    """ln(E_measured / E_law) (2n,): relative errors of the norm, then errors of the phase [rad]."""
     ratio = np.log(measured / law)
     return np.concatenate([ratio.real, ratio.imag])
 
@@ -219,21 +127,10 @@ def log_residual(measured: NDArray[np.complex128], law: NDArray[np.complex128]) 
 def best_of_starts(
     residual: Callable[[Vector], Vector], bounds: tuple[Vector, Vector], starts: tuple[Vector, Vector]
 ) -> OptimizeResult:
-    """Least squares from random starts between two corners; the lowest cost wins.
+    """Solve least squares from STARTS random starts, drawn from SEED between two corners; the lowest cost wins.
 
-    Parameters
-    ----------
-    residual : callable
-        From parameters (p,) to residuals (r,).
-    bounds : tuple of ndarray (p,)
-        Lowest and highest parameters of the fit.
-    starts : tuple of ndarray (p,)
-        Two corners between which STARTS points are drawn uniformly, from SEED.
-
-    Returns
-    -------
-    OptimizeResult
-        As `scipy.optimize.least_squares` gives it, with its Jacobian.
+    `residual` takes parameters (p,) to residuals (r,); `bounds` are the lowest and highest parameters (p,), `starts`
+    the corners (p,). The result is that of `scipy.optimize.least_squares`.
     """
     random = np.random.default_rng(SEED)
     solutions = (
@@ -254,21 +151,10 @@ def best_of_starts(
 def covariance_of(
     solution: OptimizeResult, seen: NDArray[np.bool_] | None = None, variance: float | None = None
 ) -> NDArray | None:
-    """Covariance of fitted coordinates, from the Jacobian.
+    """Covariance (p, p) of fitted coordinates, from the Jacobian.
 
-    Parameters
-    ----------
-    solution : OptimizeResult
-        Of `scipy.optimize.least_squares`.
-    seen : ndarray of bool (p,), optional
-        The part of x that is asked for, with the rest held; all of x if None.
-    variance : float, optional
-        Of the residuals, where it is known; else it is estimated.
-
-    Returns
-    -------
-    ndarray (p, p) or None
-        None where the points do not outnumber the unknowns or do not determine them all.
+    `seen` (p,) marks the part of x that is asked for, with the rest held; all if None. `variance` is that of the
+    residuals where it is known, else it is estimated. None where the points do not outnumber or determine all unknowns.
     """
     jacobian = solution.jac if seen is None else solution.jac[:, seen]
     freedom = jacobian.shape[0] - jacobian.shape[1]
@@ -282,18 +168,5 @@ def covariance_of(
 
 
 def rms_of(solution: OptimizeResult, points: int) -> float:
-    """Root mean square over the points of the complex residual's norm.
-
-    Parameters
-    ----------
-    solution : OptimizeResult
-        Least squares of `log_residual`: two residuals for each point.
-    points : int
-        How many were fitted.
-
-    Returns
-    -------
-    float
-        Root mean square of |ln(E_measured / E_law)|.
-    """
+    """Root mean square of |ln(E_measured / E_law)| over the points of a least-squares fit of `log_residual`."""
     return float(np.sqrt(2.0 * solution.cost / points))

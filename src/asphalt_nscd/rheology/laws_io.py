@@ -34,25 +34,9 @@ def law_content(
     std_error: dict[str, float] | None = None,
     rms_log_residual: float | None = None,
 ) -> dict[str, Any]:
-    """A Burgers law of one temperature, as its file has it.
+    """Content of the file of a Burgers law that holds at one temperature [degC].
 
-    Parameters
-    ----------
-    law : Burgers
-        In SI units.
-    source : str
-        "published", "fitted" or "stated".
-    temperature : float
-        At which it holds [degC].
-    std_error : dict of str to float, optional
-        Of each parameter, by field name and in its unit.
-    rms_log_residual : float, optional
-        Of a fit.
-
-    Returns
-    -------
-    dict
-        Content of the file.
+    `source` is "published", "fitted" or "stated"; `std_error` is by field name, in the unit of each parameter.
     """
     return {
         "law": "burgers",
@@ -65,45 +49,14 @@ def law_content(
 
 
 def write_law(path: str | Path, law: Burgers, **said: Any) -> dict[str, Any]:
-    """Write the Burgers law of one temperature.
-
-    Parameters
-    ----------
-    path : path
-        JSON file to write.
-    law : Burgers
-        In SI units.
-    **said : object
-        As in `law_content`.
-
-    Returns
-    -------
-    dict
-        Content of the file.
-    """
+    """Write the Burgers law of one temperature as JSON, `said` as in `law_content`, and return the content."""
     content = law_content(law, **said)
     write_json(path, content)
     return content
 
 
 def read_law(path: str | Path) -> Burgers:
-    """Read a Burgers law.
-
-    Parameters
-    ----------
-    path : path
-        JSON file.
-
-    Returns
-    -------
-    Burgers
-        The law.
-
-    Raises
-    ------
-    InputError
-        Where the file is missing, damaged or holds another law.
-    """
+    """Read a Burgers law from JSON; raises InputError where the file holds another law."""
     return _burgers_of(path, content_of(path, ["burgers"]))
 
 
@@ -120,25 +73,9 @@ def chain_content(
     lowest_hz: float,
     highest_hz: float,
 ) -> dict[str, Any]:
-    """A Kelvin chain that stands for a law at one temperature, as its file has it.
+    """Content of the file of a Kelvin chain that stands for the law `source` at one temperature [degC].
 
-    Parameters
-    ----------
-    chain : KelvinChain
-        In SI units.
-    source : str
-        Name of the law it stands for.
-    temperature : float
-        At which it holds [degC].
-    error : float
-        Its largest |ln(E_chain / E)| between lowest_hz and highest_hz.
-    lowest_hz, highest_hz : float
-        The band for which it holds [Hz].
-
-    Returns
-    -------
-    dict
-        Content of the file.
+    `error` is its largest |ln(E_chain / E)| between `lowest_hz` and `highest_hz`, the band for which it holds.
     """
     return {
         "law": "kelvin_chain",
@@ -153,22 +90,7 @@ def chain_content(
 
 
 def write_chain(path: str | Path, chain: KelvinChain, **said: Any) -> dict[str, Any]:
-    """Write a Kelvin chain that stands for a law at one temperature.
-
-    Parameters
-    ----------
-    path : path
-        JSON file to write.
-    chain : KelvinChain
-        In SI units.
-    **said : object
-        As in `chain_content`.
-
-    Returns
-    -------
-    dict
-        Content of the file.
-    """
+    """Write a Kelvin chain as JSON, `said` as in `chain_content`, and return the content."""
     content = chain_content(chain, **said)
     write_json(path, content)
     return content
@@ -177,26 +99,9 @@ def write_chain(path: str | Path, chain: KelvinChain, **said: Any) -> dict[str, 
 def read_bond_law(
     path: str | Path, temperature: float | None = None, frequencies: Sequence[float] = ()
 ) -> Burgers | KelvinChain:
-    """Read a law that bonds can follow.
+    """Read a law that bonds can follow, a Burgers law or a Kelvin chain.
 
-    Parameters
-    ----------
-    path : path
-        JSON file of a Burgers law or a Kelvin chain.
-    temperature : float, optional
-        Of the tests [degC]; None for any.
-    frequencies : sequence of float
-        Of the tests [Hz].
-
-    Returns
-    -------
-    Burgers or KelvinChain
-        The law.
-
-    Raises
-    ------
-    InputError
-        Where the file holds no such law, or it does not hold for these tests.
+    It must hold for tests at `temperature` [degC] (None for any) and `frequencies` [Hz]; else it is refused.
     """
     content = content_of(path, ["burgers", "kelvin_chain"])
     require_holds(path, content, temperature, frequencies)
@@ -206,24 +111,7 @@ def read_bond_law(
 def require_holds(
     path: str | Path, content: dict[str, Any], temperature: float | None, frequencies: Sequence[float]
 ) -> None:
-    """Refuse a law of one temperature at another, and a Kelvin chain beyond its band.
-
-    Parameters
-    ----------
-    path : path
-        Of the file, for the message.
-    content : dict
-        Of the file.
-    temperature : float or None
-        Of the tests [degC]; None for any.
-    frequencies : sequence of float
-        Of the tests [Hz].
-
-    Raises
-    ------
-    InputError
-        Where the law does not hold.
-    """
+    """Refuse a law of one temperature at another [degC] (None for any), and a Kelvin chain beyond its band [Hz]."""
     own = numbers_of(path, content, {"temperature": "temperature_C"})["temperature"]
     if temperature is not None and not abs(temperature - own) <= SAME_TEMPERATURE:  # NaN is no temperature
         raise InputError(
@@ -243,25 +131,7 @@ def require_holds(
 
 
 def bond_law_of(path: str | Path, content: dict[str, Any]) -> Burgers | KelvinChain:
-    """The law that bonds can follow in the content of a file.
-
-    Parameters
-    ----------
-    path : path
-        Of the file, for a message.
-    content : dict
-        Of the file.
-
-    Returns
-    -------
-    Burgers or KelvinChain
-        The law.
-
-    Raises
-    ------
-    InputError
-        Where a key is missing or holds no numbers.
-    """
+    """The law that bonds can follow in the content of a file; `path` is for a message."""
     if content["law"] == "burgers":
         return _burgers_of(path, content)
     absent = {name for name, key in _CHAIN_KEYS.items() if key in content and content[key] is None}
@@ -278,20 +148,7 @@ def bond_law_of(path: str | Path, content: dict[str, Any]) -> Burgers | KelvinCh
 
 
 def renamed(values: dict[str, float], keys: dict[str, str]) -> dict[str, float]:
-    """Values under the keys of a file.
-
-    Parameters
-    ----------
-    values : dict of str to float
-        By field name.
-    keys : dict of str to str
-        Key of each field name.
-
-    Returns
-    -------
-    dict of str to float
-        By key.
-    """
+    """Values by field name, put under the keys of a file."""
     return {keys[name]: float(value) for name, value in values.items()}
 
 
@@ -309,25 +166,7 @@ def _is_number(value: Any) -> bool:
 
 
 def content_of(path: str | Path, laws: list[str]) -> dict[str, Any]:
-    """Content of a law file.
-
-    Parameters
-    ----------
-    path : path
-        JSON file.
-    laws : list of str
-        Names of laws that it may hold.
-
-    Returns
-    -------
-    dict
-        Content of the file.
-
-    Raises
-    ------
-    InputError
-        Where it holds no law, or another.
-    """
+    """Read a law file, refused where it holds none of `laws`."""
     content = read_json(path)
     found = content.get("law") if isinstance(content, dict) else None
     if found is None:
@@ -340,27 +179,7 @@ def content_of(path: str | Path, laws: list[str]) -> dict[str, Any]:
 
 
 def numbers_of(path: str | Path, content: dict[str, Any], keys: dict[str, str]) -> dict[str, float]:
-    """Numbers of a law file by field name.
-
-    Parameters
-    ----------
-    path : path
-        Of the file, for a message.
-    content : dict
-        Of the file.
-    keys : dict of str to str
-        Key of each field name.
-
-    Returns
-    -------
-    dict of str to float
-        By field name.
-
-    Raises
-    ------
-    InputError
-        Where a key is missing or is no number.
-    """
+    """Numbers of a law file by field name; `keys` gives the file's key of each field, `path` is for a message."""
     for key in keys.values():
         if not _is_number(content.get(key)):
             raise InputError(

@@ -50,68 +50,20 @@ class OfModulus(ABC):
 
     @abstractmethod
     def log_modulus(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """ln |E*|.
-
-        Parameters
-        ----------
-        log_reduced : ndarray
-            ln(omega tau a_T).
-
-        Returns
-        -------
-        ndarray
-            [ln Pa], of the same shape.
-        """
+        """ln |E*| [ln Pa] at ln(omega tau a_T), of the same shape."""
 
     @abstractmethod
     def log_slope(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Derivative of `log_modulus`.
-
-        Parameters
-        ----------
-        log_reduced : ndarray
-            ln(omega tau a_T).
-
-        Returns
-        -------
-        ndarray
-            d ln|E*| / d ln omega, of the same shape.
-        """
+        """Derivative of `log_modulus`, d ln|E*| / d ln omega, at ln(omega tau a_T)."""
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Complex modulus.
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequencies [rad/s].
-        temperature : array_like
-            [degC], broadcast with omega.
-
-        Returns
-        -------
-        ndarray of complex
-            E* [Pa], of the shape of both together.
-        """
+        """E* [Pa] at angular frequencies [rad/s] and temperatures [degC], broadcast together."""
         x = np.log(np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature))
         phase = self.log_slope(np.asarray(x)[..., None] + OFFSETS) @ WEIGHTS
         return np.exp(self.log_modulus(x) + 1j * phase)
 
     def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Derivatives of ln E* with respect to the logarithm of each of its `parameters`, by differences.
-
-        Parameters
-        ----------
-        omega : array_like (n,)
-            Angular frequencies [rad/s].
-        temperature : array_like (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray of complex (n, p)
-            In the order of `parameters`.
-        """
+        """Derivatives (n, p) of ln E* by ln of each of `parameters`, by differences; `omega` in rad/s."""
         # differences, since the phase is an integral; the central ones err by STEP^2
         own = [field.name for field in fields(self) if field.name != "shift"]
         columns = []
@@ -132,21 +84,10 @@ class OfModulus(ABC):
 class Sigmoid(OfModulus):
     """Sigmoid of AASHTO R 84 and MEPDG, log10|E*| = delta + alpha / (1 + exp(beta + gamma log10 t_r)).
 
-    Parameters
-    ----------
-    static_modulus : float
-        Its lower end 10^delta [Pa].
-    glassy_modulus : float
-        Its upper end 10^(delta + alpha) [Pa].
-    tau : float
-        Where log|E*| is half-way [s], at the reference temperature of the shift.
-    shift : WLF or Arrhenius
-        Of frequency with temperature.
-    gamma : float
-        Slope, -R 84's over ln 10.
+    `static_modulus` is its lower end 10^delta [Pa], `glassy_modulus` its upper end 10^(delta + alpha) [Pa]; at `tau`
+    [s], at the reference temperature of `shift`, log|E*| is half-way; `gamma` is the slope, the formula's over ln 10 (R
+    84 writes it of f_r, with the other sign).
 
-    Examples
-    --------
     >>> law = Sigmoid(100e6, 25e9, tau=0.2, gamma=0.25, shift=WLF(24.0, 160.0, 15.0))
     >>> np.degrees(np.angle(law.complex_modulus(2 * np.pi * 10, [0, 15, 30]))).round(1).tolist()
     [12.7, 27.7, 28.3]
@@ -158,18 +99,7 @@ class Sigmoid(OfModulus):
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What its own parameters must satisfy, if these do not.
-
-        Parameters
-        ----------
-        values : mapping of str to float
-            Parameters by field name: moduli [Pa], tau [s], gamma [-].
-
-        Returns
-        -------
-        str
-            Empty where they are allowed; else what is needed, in the names that a law file has.
-        """
+        """What the parameters (SI units) must satisfy, in the names of a law file, if they do not; else empty."""
         # Unlike CAM the sigmoid takes the logarithm of its lower end.
         if (
             0.0 < values["static_modulus"] < values["glassy_modulus"]
@@ -179,62 +109,24 @@ class Sigmoid(OfModulus):
         return "needs 0 < E_static_Pa < E_glassy_Pa, and tau_s and gamma above zero"
 
     def log_modulus(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """ln |E*|.
-
-        Parameters
-        ----------
-        log_reduced : ndarray
-            ln(omega tau a_T).
-
-        Returns
-        -------
-        ndarray
-            [ln Pa].
-        """
+        """ln |E*| [ln Pa] at ln(omega tau a_T)."""
         low, high = np.log(self.static_modulus), np.log(self.glassy_modulus)
         return low + (high - low) * expit(self.gamma * log_reduced)
 
     def log_slope(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Derivative of `log_modulus`.
-
-        Parameters
-        ----------
-        log_reduced : ndarray
-            ln(omega tau a_T).
-
-        Returns
-        -------
-        ndarray
-            d ln|E*| / d ln omega.
-        """
+        """Derivative of `log_modulus`, d ln|E*| / d ln omega, at ln(omega tau a_T)."""
         share = expit(self.gamma * log_reduced)
         return np.log(self.glassy_modulus / self.static_modulus) * self.gamma * share * (1.0 - share)
 
 
 @dataclass(frozen=True)
 class CAM(OfModulus):
-    """Modified law of Christensen, Anderson and Marasteanu for mixes (Zeng, Bahia, Zhai, Anderson & Turner
-    2001).
+    """Modified law of Christensen, Anderson and Marasteanu for mixes (Zeng, Bahia, Zhai, Anderson & Turner 2001).
 
-    |E*| = static + (glassy - static) / (1 + (omega tau a_T)^-v)^(w/v).
+    |E*| = static + (glassy - static) / (1 + (omega tau a_T)^-v)^(w/v); the two moduli, limits at zero and infinite
+    frequency, are in Pa. `tau` [s] is the inverse of the crossover frequency at the reference temperature of `shift`,
+    `v` the width of the transition, `w` the final slope of ln|E*| over ln(omega).
 
-    Parameters
-    ----------
-    static_modulus : float
-        Limit at zero frequency [Pa].
-    glassy_modulus : float
-        Limit at infinite frequency [Pa].
-    tau : float
-        Inverse of the crossover frequency [s], at the reference temperature of the shift.
-    shift : WLF or Arrhenius
-        Of frequency with temperature.
-    v : float
-        Width of the transition.
-    w : float
-        Final slope of ln|E*| over ln(omega).
-
-    Examples
-    --------
     >>> law = CAM(100e6, 30e9, tau=0.2, v=0.2, w=0.8, shift=WLF(24.0, 160.0, 15.0))
     >>> np.degrees(np.angle(law.complex_modulus(2 * np.pi * 10, [0, 15, 30]))).round(1).tolist()
     [11.7, 26.5, 37.1]
@@ -247,18 +139,7 @@ class CAM(OfModulus):
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What its own parameters must satisfy, if these do not.
-
-        Parameters
-        ----------
-        values : mapping of str to float
-            Parameters by field name: moduli [Pa], tau [s], v and w [-].
-
-        Returns
-        -------
-        str
-            Empty where they are allowed; else what is needed, in the names that a law file has.
-        """
+        """What the parameters (SI units) must satisfy, in the names of a law file, if they do not; else empty."""
         positive = min(values["tau"], values["v"], values["w"]) > 0.0
         if positive and 0.0 <= values["static_modulus"] < values["glassy_modulus"]:
             return ""
@@ -272,32 +153,10 @@ class CAM(OfModulus):
         return self.static_modulus + above, above * self.w * expit(-self.v * log_reduced)
 
     def log_modulus(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """ln |E*|.
-
-        Parameters
-        ----------
-        log_reduced : ndarray
-            ln(omega tau a_T).
-
-        Returns
-        -------
-        ndarray
-            [ln Pa], of the same shape.
-        """
+        """ln |E*| [ln Pa] at ln(omega tau a_T), of the same shape."""
         return np.log(self._parts(log_reduced)[0])
 
     def log_slope(self, log_reduced: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Derivative of `log_modulus`.
-
-        Parameters
-        ----------
-        log_reduced : ndarray
-            ln(omega tau a_T).
-
-        Returns
-        -------
-        ndarray
-            d ln|E*| / d ln omega, of the same shape.
-        """
+        """Derivative of `log_modulus`, d ln|E*| / d ln omega, at ln(omega tau a_T)."""
         modulus, slope = self._parts(log_reduced)
         return slope / modulus

@@ -19,17 +19,9 @@ SAME_RATE = 1e-8  # relative: between closer rates no zero is found by numbers o
 class MaxwellSeries:
     """Law of one temperature, E(t) = long_term + sum of moduli exp(-t / times).
 
-    Parameters
-    ----------
-    long_term : float
-        Modulus at infinite time [Pa], zero where the material flows.
-    moduli : tuple of float (m,)
-        Of the branches [Pa], all positive.
-    times : tuple of float (m,)
-        Relaxation times of the branches [s], all positive.
+    `long_term` [Pa], zero where the material flows; `moduli` (m,) [Pa] and relaxation `times` (m,) [s] of the branches,
+    all positive.
 
-    Examples
-    --------
     >>> series = MaxwellSeries(1e9, (4e9, 5e9), (0.1, 10.0))
     >>> series.instantaneous, series.relaxation_modulus(0.0).item()
     (10000000000.0, 10000000000.0)
@@ -50,71 +42,26 @@ class MaxwellSeries:
 
     @property
     def instantaneous(self) -> float:
-        """All springs side by side.
-
-        Returns
-        -------
-        float
-            E(0) [Pa].
-        """
+        """Instantaneous modulus E(0) [Pa], all springs side by side."""
         return self.long_term + sum(self.moduli)
 
     @property
     def weights(self) -> tuple[float, ...]:
-        """Modulus of each branch as a share of the instantaneous modulus.
-
-        Returns
-        -------
-        tuple of float (m,)
-            Shares, as Abaqus and Ansys take them.
-        """
+        """Modulus of each branch as a share of the instantaneous modulus (m,), as Abaqus and Ansys take them."""
         return tuple(modulus / self.instantaneous for modulus in self.moduli)
 
     def solid(self, share: float) -> MaxwellSeries:
-        """The series as that of a solid.
-
-        Parameters
-        ----------
-        share : float
-            Least long-term modulus, over the instantaneous one.
-
-        Returns
-        -------
-        MaxwellSeries
-            The same branches.
-        """
+        """The same branches with a long-term modulus of at least `share` of the instantaneous one, as a solid has."""
         least = share * sum(self.moduli) / (1.0 - share)
         return MaxwellSeries(max(self.long_term, least), self.moduli, self.times)
 
     def complex_modulus(self, omega: ArrayLike) -> NDArray[np.complex128]:
-        """Complex modulus.
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequencies [rad/s].
-
-        Returns
-        -------
-        ndarray of complex
-            E* [Pa], of the shape of omega.
-        """
+        """Complex modulus E* [Pa] at angular frequencies [rad/s]."""
         turned = 1j * np.asarray(omega, dtype=float)[..., None] * np.asarray(self.times)
         return self.long_term + (np.asarray(self.moduli) * turned / (1.0 + turned)).sum(axis=-1)
 
     def relaxation_modulus(self, time: ArrayLike) -> NDArray[np.float64]:
-        """Stress per unit of constant strain.
-
-        Parameters
-        ----------
-        time : array_like
-            After loading [s].
-
-        Returns
-        -------
-        ndarray
-            E(t) [Pa], of the shape of time.
-        """
+        """Stress per unit of constant strain, E(t) [Pa], at times after loading [s]."""
         decay = np.exp(-np.asarray(time, dtype=float)[..., None] / np.asarray(self.times))
         return self.long_term + (np.asarray(self.moduli) * decay).sum(axis=-1)
 
@@ -122,25 +69,10 @@ class MaxwellSeries:
 def of_chain(chain: KelvinChain) -> MaxwellSeries:
     """A Kelvin chain as a generalised Maxwell model, without approximation.
 
-    The relaxation rates r are the zeros of the compliance on the negative axis, D(-r) = 0; one lies between
-    each pair of neighbouring poles of D, which are 0 (of the dashpot) and the retardation rates. The modulus
-    of a branch is the residue of 1/D there, 1 / (r |D'(-r)|) (Tschoegl 1989, ch. 4). A Burgers law has two
-    branches and no spring.
-
-    Parameters
-    ----------
-    chain : KelvinChain
-        With a spring.
-
-    Returns
-    -------
-    MaxwellSeries
-        The same law.
-
-    Raises
-    ------
-    InputError
-        For a chain without spring, whose instantaneous modulus is not finite.
+    The relaxation rates r are the zeros of the compliance on the negative axis, D(-r) = 0; one lies between each pair
+    of neighbouring poles of D, which are 0 (of the dashpot) and the retardation rates. The modulus of a branch is the
+    residue of 1/D there, 1 / (r |D'(-r)|) (Tschoegl 1989, ch. 4). A Burgers law has two branches and no spring. A chain
+    without a spring is refused, because its instantaneous modulus is not finite.
     """
     if np.isinf(chain.spring):
         raise InputError(

@@ -25,52 +25,18 @@ SMALLEST = 1e-6  # long-term modulus over the sum, from which a logarithm can st
 
 @dataclass(frozen=True)
 class Miss:
-    """Largest errors of a series.
-
-    Parameters
-    ----------
-    percent : float
-        Of |E*| [%].
-    degrees : float
-        Of the phase [degrees].
-    """
+    """Largest errors of a series: of |E*| in percent, and of the phase in degrees."""
 
     percent: float
     degrees: float
 
     def within(self, allowed: Miss) -> bool:
-        """Whether neither error is larger than the one allowed.
-
-        Parameters
-        ----------
-        allowed : Miss
-            Largest errors allowed.
-
-        Returns
-        -------
-        bool
-            True if both are within.
-        """
+        """Whether neither error is larger than the one allowed."""
         return self.percent <= allowed.percent and self.degrees <= allowed.degrees
 
 
 def miss(series: MaxwellSeries, modulus: Modulus, lowest_omega: float, highest_omega: float) -> Miss:
-    """Largest errors of a series against a law.
-
-    Parameters
-    ----------
-    series : MaxwellSeries
-        That stands for the law.
-    modulus : callable
-        E* [Pa] of the law at angular frequencies (n,) [rad/s].
-    lowest_omega, highest_omega : float
-        The band [rad/s].
-
-    Returns
-    -------
-    Miss
-        Over the band.
-    """
+    """Largest errors of a series against a law, E* [Pa] of angular frequencies [rad/s], over a band [rad/s]."""
     omega = _grid(lowest_omega, highest_omega, TESTED)
     return _miss_of(series, modulus(omega), omega)
 
@@ -78,34 +44,12 @@ def miss(series: MaxwellSeries, modulus: Modulus, lowest_omega: float, highest_o
 def fit_series(
     modulus: Modulus, lowest_omega: float, highest_omega: float, allowed: Miss
 ) -> tuple[MaxwellSeries, Miss]:
-    """The series of the fewest branches found that stays within the allowed errors over a band.
+    """The series of the fewest branches found that stays within the allowed errors over a band [rad/s], and its errors.
 
-    All moduli are positive, so that the series is passive. Relaxation times start evenly spaced on a
-    logarithmic scale with moduli from non-negative least squares (as in `conversion.kelvin_chain`). From the
-    number that suffices so, branches are taken away while times and moduli, refined together, still meet the
-    error: first from even spacing, then with two neighbours merged. Outside the band the series is whatever
-    follows from within.
-
-    Parameters
-    ----------
-    modulus : callable
-        E* [Pa] at angular frequencies (n,) [rad/s].
-    lowest_omega, highest_omega : float
-        The band [rad/s].
-    allowed : Miss
-        Largest errors.
-
-    Returns
-    -------
-    MaxwellSeries
-        The series.
-    Miss
-        Its errors.
-
-    Raises
-    ------
-    InputError
-        For a band or errors that are not positive, or where more branches than `MOST_TERMS` were needed.
+    `modulus` gives E* [Pa] at (n,) rad/s. Relaxation times start evenly spaced on a logarithmic scale, with positive
+    moduli (so the series is passive) from non-negative least squares. Then branches are taken away, from even spacing
+    and by merging two neighbours, while times and moduli, refined together, still meet the error. Outside the band the
+    series is whatever follows from within.
     """
     if not 0.0 < lowest_omega <= highest_omega < np.inf:
         raise InputError(

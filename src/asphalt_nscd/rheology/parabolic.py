@@ -21,21 +21,8 @@ class HuetSayegh:
     """Huet-Sayegh law of one mix (Huet 1963, Sayegh 1967).
 
     E* = E_0 + (E_inf - E_0) / (1 + delta (i w tau)^-k + (i w tau)^-h), w the reduced angular frequency.
-
-    Parameters
-    ----------
-    static_modulus : float
-        E_0, limit of E* at zero frequency [Pa].
-    glassy_modulus : float
-        E_inf, limit of E* at infinite frequency [Pa].
-    k, h : float
-        Exponents of the parabolic elements, 0 < k <= h < 1.
-    delta : float
-        Weight of the element of exponent k.
-    tau : float
-        Characteristic time [s] at the reference temperature of the shift.
-    shift : WLF or Arrhenius
-        Of frequency with temperature.
+    `static_modulus` E_0 and `glassy_modulus` E_inf in Pa; `tau` [s] at the reference temperature of `shift`; exponents
+    0 < k <= h < 1.
     """
 
     title: ClassVar[str] = "Huet-Sayegh"
@@ -50,54 +37,17 @@ class HuetSayegh:
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What its own parameters must satisfy, if these do not.
-
-        Parameters
-        ----------
-        values : mapping of str to float
-            Parameters by field name: moduli [Pa], tau [s], delta, k and h [-].
-
-        Returns
-        -------
-        str
-            Empty where they are allowed; else what is needed, in the names that a law file has.
-        """
+        """What the parameters (SI units) must satisfy, in the names of a law file, if they do not; else empty."""
         return _refusal(values)
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Complex modulus.
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequencies [rad/s].
-        temperature : array_like
-            [degC], broadcast with omega.
-
-        Returns
-        -------
-        ndarray of complex
-            E* [Pa], of the shape of both together.
-        """
+        """E* [Pa] at angular frequencies [rad/s] and temperatures [degC], broadcast together."""
         reduced = 1j * np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature)
         retarded = 1.0 + self.delta * reduced**-self.k + reduced**-self.h
         return self.static_modulus + (self.glassy_modulus - self.static_modulus) / retarded
 
     def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Derivatives of ln E* with respect to the logarithm of each of its `parameters`.
-
-        Parameters
-        ----------
-        omega : array_like (n,)
-            Angular frequencies [rad/s].
-        temperature : array_like (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray of complex (n, p)
-            In the order of `parameters`.
-        """
+        """Derivatives (n, p) of ln E* by ln of each of `parameters`, at `omega` [rad/s] and `temperature` [degC]."""
         return _log_slopes(self, omega, temperature)
 
 
@@ -105,28 +55,10 @@ class HuetSayegh:
 class TwoS2P1D:
     """2S2P1D law of one mix (Olard & Di Benedetto 2003).
 
-    E* = E_0 + (E_inf - E_0) / (1 + delta (i w tau)^-k + (i w tau)^-h + 1 / (i w beta tau)), w the reduced
-    angular frequency.
+    E* = E_0 + (E_inf - E_0) / (1 + delta (i w tau)^-k + (i w tau)^-h + 1 / (i w beta tau)), w the reduced angular
+    frequency. `static_modulus` E_0 and `glassy_modulus` E_inf in Pa; `tau` [s] at the reference temperature of `shift`;
+    exponents 0 < k <= h < 1; `beta` is of the dashpot, viscosity = (E_inf - E_0) beta tau.
 
-    Parameters
-    ----------
-    static_modulus : float
-        E_0, limit of E* at zero frequency [Pa].
-    glassy_modulus : float
-        E_inf, limit of E* at infinite frequency [Pa].
-    k, h : float
-        Exponents of the parabolic elements, 0 < k <= h < 1.
-    delta : float
-        Weight of the element of exponent k.
-    tau : float
-        Characteristic time [s] at the reference temperature of the shift.
-    beta : float
-        Of the dashpot, viscosity = (E_inf - E_0) beta tau.
-    shift : WLF or Arrhenius
-        Of frequency with temperature.
-
-    Examples
-    --------
     >>> law = TwoS2P1D(30e6, 36e9, k=0.2, h=0.58, delta=2.2, tau=0.06, beta=250.0, shift=WLF(24.0, 160.0, 15.0))
     >>> abs(law.complex_modulus(2 * np.pi * 10, [0, 15, 30]) / 1e6).round().tolist()  # MPa
     [23504.0, 11931.0, 3032.0]
@@ -145,54 +77,17 @@ class TwoS2P1D:
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What its own parameters must satisfy, if these do not.
-
-        Parameters
-        ----------
-        values : mapping of str to float
-            Parameters by field name: moduli [Pa], tau [s], delta, k, h and beta [-].
-
-        Returns
-        -------
-        str
-            Empty where they are allowed; else what is needed, in the names that a law file has.
-        """
+        """What the parameters (SI units) must satisfy, in the names of a law file, if they do not; else empty."""
         return _refusal(values)
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Complex modulus.
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequencies [rad/s].
-        temperature : array_like
-            [degC], broadcast with omega.
-
-        Returns
-        -------
-        ndarray of complex
-            E* [Pa], of the shape of both together.
-        """
+        """E* [Pa] at angular frequencies [rad/s] and temperatures [degC], broadcast together."""
         reduced = 1j * np.asarray(omega, dtype=float) * self.tau * self.shift.factor(temperature)
         retarded = 1.0 + self.delta * reduced**-self.k + reduced**-self.h + 1.0 / (reduced * self.beta)
         return self.static_modulus + (self.glassy_modulus - self.static_modulus) / retarded
 
     def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Derivatives of ln E* with respect to the logarithm of each of its `parameters`.
-
-        Parameters
-        ----------
-        omega : array_like (n,)
-            Angular frequencies [rad/s].
-        temperature : array_like (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray of complex
-            (n, p) In the order of `parameters`.
-        """
+        """Derivatives (n, p) of ln E* by ln of each of `parameters`, at `omega` [rad/s] and `temperature` [degC]."""
         return _log_slopes(self, omega, temperature)
 
 

@@ -26,16 +26,8 @@ FROM_PRIOR = 0.7  # posterior over prior standard deviation above which the test
 class Usual:
     """What one parameter usually is: a normal distribution of its logarithm.
 
-    Parameters
-    ----------
-    median : float
-        In `unit`.
-    deviation : float
-        Standard deviation of its natural logarithm.
-    unit : str
-        Of the median.
-    source : str
-        Where both come from.
+    `median` in `unit`; `deviation` is the standard deviation of the natural logarithm; `source` says where both come
+    from.
     """
 
     median: float
@@ -85,34 +77,16 @@ USUAL: Mapping[str, Usual] = {
 
 @dataclass(frozen=True)
 class Prior:
-    """Independent normal distributions of the logarithms of parameters.
-
-    Parameters
-    ----------
-    usual : mapping of str to Usual
-        By parameter; one that is not named has none.
-    """
+    """Independent normal distributions of the logarithms of parameters; one that is not named in `usual` has none."""
 
     usual: Mapping[str, Usual]
 
     def standardised(
         self, values: Mapping[str, float], reference_temperature: float
     ) -> tuple[Vector, NDArray[np.float64]]:
-        """How far parameters are from their medians.
+        """Deviations (m,) from the medians in standard deviations, and their derivatives (m, p) by ln of each value.
 
-        Parameters
-        ----------
-        values : mapping of str to float
-            Parameters (p,) of a law in SI units, c1 and c2 at the reference temperature.
-        reference_temperature : float
-            Of the shift [degC].
-
-        Returns
-        -------
-        ndarray (m,)
-            Deviations from the medians in standard deviations.
-        ndarray (m, p)
-            Their derivatives by ln of each value.
+        `values` are parameters (p,) of a law in SI units, c1 and c2 at the reference temperature [degC] of the shift.
         """
         names = list(values)
         log, slope = np.log(list(values.values())), np.eye(len(names))
@@ -130,18 +104,7 @@ class Prior:
         return (log[rows] - median) / deviation, slope[rows] / deviation[:, None]
 
     def largest(self, name: str) -> float:
-        """A value ten deviations above the median, beyond what any tests will find.
-
-        Parameters
-        ----------
-        name : str
-            Of the parameter.
-
-        Returns
-        -------
-        float
-            In SI units; 0 for a parameter without a prior.
-        """
+        """A value ten deviations above the median [SI units], beyond what any tests will find; 0 without a prior."""
         usual = self.usual.get(name)
         return 0.0 if usual is None else usual.median * float(np.exp(10.0 * usual.deviation))
 
@@ -150,19 +113,8 @@ class Prior:
     ) -> tuple[str, ...]:
         """Parameters that the tests do not narrow: posterior over prior deviation above FROM_PRIOR.
 
-        Parameters
-        ----------
-        values : mapping of str to float
-            Parameters (p,) of a law in SI units.
-        covariance : ndarray (p, p)
-            Posterior, of the logarithms of the values.
-        reference_temperature : float
-            Of the shift [degC].
-
-        Returns
-        -------
-        tuple of str
-            Their names.
+        `values` are parameters (p,) in SI units; `covariance` (p, p) is the posterior of their logarithms;
+        `reference_temperature` in degC.
         """
         _, slope = self.standardised(values, reference_temperature)
         ratio = np.sqrt(np.einsum("mi,ij,mj->m", slope, covariance, slope))
@@ -189,20 +141,8 @@ _LOW_END = Usual(
 
 
 def prior_of(law: str) -> Prior:
-    """What the parameters of a law usually are.
+    """What the parameters of a law, one of LAWS, usually are for asphalt concrete.
 
-    Parameters
-    ----------
-    law : str
-        One of LAWS.
-
-    Returns
-    -------
-    Prior
-        Of asphalt concrete.
-
-    Examples
-    --------
     >>> prior_of("sigmoid").usual["static_modulus"].median, prior_of("cam") is ASPHALT_CONCRETE
     (10000000.0, True)
     """

@@ -18,29 +18,7 @@ UNITS = {"kPa": 1e3, "Pa": 1.0}  # readings of Table 3; the table prints Pa, kPa
 
 
 def published_law(table: str | Path, temperature: float, unit: str, output: str | Path) -> dict[str, Any]:
-    """Write one row of Table 3 as a law.
-
-    Parameters
-    ----------
-    table : path
-        CSV of Table 3.
-    temperature : float
-        One of its rows [degC].
-    unit : str
-        "kPa" or "Pa" (as printed), in which its numbers are read.
-    output : path
-        JSON file to write.
-
-    Returns
-    -------
-    dict
-        Content of the file.
-
-    Raises
-    ------
-    InputError
-        For a temperature that the table lacks, or a unit that is not known.
-    """
+    """Write the row of Table 3 at a temperature [degC] as a law, read in `unit`, "kPa" or "Pa" (as printed)."""
     temperatures, laws = read_published(table, unit)
     match = np.flatnonzero(np.abs(temperatures - temperature) < SAME_TEMPERATURE)
     if not match.size:
@@ -50,27 +28,7 @@ def published_law(table: str | Path, temperature: float, unit: str, output: str 
 
 
 def read_published(path: str | Path, unit: str = "kPa") -> tuple[np.ndarray, list[Burgers]]:
-    """Read a table like Table 3.
-
-    Parameters
-    ----------
-    path : path
-        CSV file.
-    unit : str
-        "kPa" or "Pa" (as printed), in which its numbers are read.
-
-    Returns
-    -------
-    ndarray (t,)
-        Temperatures [degC].
-    list of Burgers (t,)
-        The law at each.
-
-    Raises
-    ------
-    InputError
-        For a unit that is not known, or a temperature that appears twice.
-    """
+    """Temperatures (t,) [degC] and laws of a table like Table 3, read in `unit`, "kPa" or "Pa" (as printed)."""
     if unit not in UNITS:
         raise InputError(f"unit {unit!r} is not known; read Table 3 in {' or '.join(UNITS)}.")
     table: Table = read_csv(path)

@@ -33,24 +33,10 @@ REFERENCE_TEMPERATURE = 15.0  # degC; any choice gives the same law
 
 @dataclass(frozen=True)
 class Sampling:
-    """What is drawn. A scatter is a standard deviation.
+    """What is drawn; each scatter is a standard deviation, and the same seed gives the same table.
 
-    Parameters
-    ----------
-    seed : int
-        The same seed gives the same table.
-    specimens : int
-        How many.
-    frequencies : sequence of float
-        [Hz].
-    amplitude : float
-        z0 of the head [m].
-    specimen_scatter : float
-        Of ln|E*| of a whole specimen.
-    modulus_scatter : float
-        Of ln|E*| of a point.
-    phase_scatter_deg : float
-        Of the phase of a point [degrees].
+    `frequencies` in Hz, `amplitude` z0 of the head in m; `specimen_scatter` of ln|E*| of a whole specimen,
+    `modulus_scatter` of ln|E*| of a point, `phase_scatter_deg` of the phase of a point in degrees.
     """
 
     seed: int
@@ -83,25 +69,10 @@ def reconstruct_table(
     sampling: Sampling,
     law_output: str | Path | None = None,
 ) -> pd.DataFrame:
-    """Draw peaks (F0, z0, Psi) of specimens "1".."N" at all temperatures of Table 3, and write them.
+    """Draw peaks (F0, z0, Psi) of specimens "1".."N" at all temperatures of Table 3, and write them as CSV.
 
-    Parameters
-    ----------
-    table3 : path
-        CSV of Table 3.
-    geometry : path or mapping
-        Of the specimens, by which Eqs. (1)-(5) are inverted.
-    output : path
-        CSV file to write.
-    sampling : Sampling
-        What is drawn.
-    law_output : path, optional
-        Where to write the smooth law, if at all.
-
-    Returns
-    -------
-    DataFrame
-        One row for each specimen, temperature and frequency.
+    Eqs. (1)-(5) are inverted for `geometry`; `law_output` is where to write the smooth law, if at all. Returns a row
+    for each specimen, temperature and frequency.
     """
     names = [str(number + 1) for number in range(sampling.specimens)]
     geometries = read_geometry(geometry, names)
@@ -148,21 +119,9 @@ def reconstruct_table(
 
 
 def fit_published(table3: str | Path) -> tuple[np.ndarray, Fit[Spectrum]]:
-    """The smooth law of the isotherms of Table 3, read in kPa.
+    """Temperatures (t,) [degC] of Table 3, read in kPa, and the smooth 2S2P1D law of its isotherms.
 
-    The isotherms are taken at the paper's frequencies, those at which the laws were fitted.
-
-    Parameters
-    ----------
-    table3 : path
-        CSV of Table 3.
-
-    Returns
-    -------
-    ndarray (t,)
-        Temperatures [degC].
-    Fit of TwoS2P1D
-        The law, with a WLF shift.
+    They are taken at the paper's frequencies, those at which the laws were fitted; the shift is WLF.
     """
     temperatures, laws = read_published(table3)
     # At no others: between and beyond them a Burgers law has bumps that its data had not.

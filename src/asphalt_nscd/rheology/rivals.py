@@ -25,16 +25,8 @@ BRANCHES = 4
 class Rival:
     """A law in coordinates x (p,) of order one, and where its fits start.
 
-    Parameters
-    ----------
-    name : str
-        Of the law.
-    modulus : callable
-        E* [Pa] of x, omega [rad/s] and temperature [degC].
-    starts : ndarray (s, p)
-        Coordinates from which fits start.
-    low, high : ndarray (p,)
-        Bounds of the coordinates.
+    `modulus` gives E* [Pa] of x, omega [rad/s] and temperature [degC]; `starts` (s, p) are coordinates from which fits
+    start; `low` and `high` (p,) bound the coordinates.
     """
 
     name: str
@@ -46,25 +38,10 @@ class Rival:
     def fit(
         self, omega: Vector, temperature: Vector, modulus: Complex, start: Vector | None = None
     ) -> Vector:
-        """Least squares of ln E*.
+        """Coordinates (p,) fitted by least squares of ln E* at `omega` [rad/s] and `temperature` [degC].
 
-        What the tests do not determine stays near the middle of the starts, wherever the fit starts.
-
-        Parameters
-        ----------
-        omega : ndarray (n,)
-            Angular frequencies [rad/s].
-        temperature : ndarray (n,)
-            [degC].
-        modulus : ndarray of complex (n,)
-            E* [Pa].
-        start : ndarray (p,), optional
-            Coordinates to start from; the best of all starts if None.
-
-        Returns
-        -------
-        ndarray
-            (p,) Coordinates.
+        `modulus` is E* (n,) in Pa. What the tests do not determine stays near the middle of the starts, wherever the
+        fit starts; without `start` (p,) the best of all is taken.
         """
         middle = self.starts.mean(axis=0)
 
@@ -88,23 +65,9 @@ class Rival:
 
 
 def rivals(omega: Vector, temperature: Vector, modulus: Complex, reference: float) -> Iterator[Rival]:
-    """2S2P1D and a Prony series of as many parameters, nine; Huet-Sayegh, eight. All with a WLF shift.
+    """Yield 2S2P1D and a Prony series of as many parameters, nine, and Huet-Sayegh, eight, all with a WLF shift.
 
-    Parameters
-    ----------
-    omega : ndarray (n,)
-        Angular frequencies of the tests [rad/s].
-    temperature : ndarray (n,)
-        [degC].
-    modulus : ndarray of complex (n,)
-        E* [Pa].
-    reference : float
-        Temperature of the shift [degC].
-
-    Yields
-    ------
-    Rival
-        One law after another.
+    Tests (n,): `omega` in rad/s, `temperature` in degC, `modulus` E* in Pa; `reference` of the shift in degC.
     """
     largest = float(np.abs(modulus).max())
     for name, law in (("2S2P1D", "2s2p1d"), ("Huet-Sayegh", "huet-sayegh")):
@@ -151,27 +114,10 @@ def _prony(omega: Vector, temperature: Vector, largest: float, reference: float)
 def left_out(
     rival: Rival, omega: Vector, temperature: Vector, modulus: Complex, groups: Vector, start: Vector
 ) -> Iterator[tuple[float, Vector]]:
-    """Fit a law without each temperature, or without each frequency.
+    """Fit a law without each temperature, or each frequency: yields the value left out and the coordinates (p,).
 
-    Parameters
-    ----------
-    rival : Rival
-        The law.
-    omega : ndarray (n,)
-        Angular frequencies of the tests [rad/s].
-    temperature : ndarray (n,)
-        [degC].
-    modulus : ndarray of complex (n,)
-        E* [Pa].
-    groups : ndarray (n,)
-        Temperature or frequency of each test.
-    start : ndarray (p,)
-        Coordinates from which the fits start; those of a fit to all tests, as `fit` forgets them.
-
-    Yields
-    ------
-    tuple of float and ndarray (p,)
-        Each value of the groups, and the coordinates fitted without it.
+    `omega` in rad/s, `temperature` in degC, `modulus` E* in Pa. `groups` (n,) is the temperature or frequency of each
+    test; `start` (p,) are the coordinates of a fit to all tests.
     """
     for value in np.unique(groups):
         rest = groups != value

@@ -13,28 +13,9 @@ LEAST_FACTOR, LARGEST_FACTOR = 1e-6, 1e6
 
 
 def scale_law(law: str | Path, parameter: str, factor: float, output: str | Path) -> dict[str, Any]:
-    """Write a law with one parameter changed; it says which, and drops what held for the fit.
+    """Write a Burgers law with one parameter scaled; it says which, and drops what held for the fit.
 
-    Parameters
-    ----------
-    law : path
-        JSON file of a Burgers law.
-    parameter : str
-        "Em", "eta_m", "Ek" or "eta_k".
-    factor : float
-        Of the parameter.
-    output : path
-        JSON file to write.
-
-    Returns
-    -------
-    dict
-        Content of the file.
-
-    Raises
-    ------
-    InputError
-        For another parameter, or a factor out of range.
+    `parameter` is "Em", "eta_m", "Ek" or "eta_k".
     """
     if parameter not in PARAMETERS:
         raise InputError(f"the law has no parameter {parameter!r}; give one of {', '.join(PARAMETERS)}.")

@@ -17,17 +17,8 @@ ZERO_CELSIUS = 273.15  # K
 class WLF:
     """Shift of Williams, Landel & Ferry (1955), log10 a_T = -c1 (T - T_ref) / (c2 + T - T_ref).
 
-    Parameters
-    ----------
-    c1 : float
-        [decades].
-    c2 : float
-        [K].
-    reference_temperature : float
-        T_ref [degC].
+    `c1` in decades, `c2` in K, `reference_temperature` T_ref in degC.
 
-    Examples
-    --------
     >>> WLF(c1=24.0, c2=160.0, reference_temperature=15.0).factor([5, 15, 25]).round(3).tolist()
     [39.811, 1.0, 0.039]
     """
@@ -37,22 +28,9 @@ class WLF:
     reference_temperature: float
 
     def factor(self, temperature: ArrayLike) -> NDArray[np.float64]:
-        """The shift factor.
+        """Shift factor a_T, reduced frequency over frequency, at temperatures [degC]; 1 at the reference.
 
-        Parameters
-        ----------
-        temperature : array_like
-            [degC].
-
-        Returns
-        -------
-        ndarray
-            a_T, reduced frequency over frequency; 1 at the reference.
-
-        Raises
-        ------
-        InputError
-            Where c2 + T - T_ref is not positive: the shift is not defined there.
+        A temperature where c2 + T - T_ref is not positive is refused, because the shift is not defined there.
         """
         above = np.asarray(temperature, dtype=float) - self.reference_temperature
         # Beyond its singularity the formula turns its sign: a colder mix would be softer.
@@ -64,18 +42,7 @@ class WLF:
         return 10.0 ** (-self.c1 * above / (self.c2 + above))
 
     def log_slopes(self, temperature: ArrayLike) -> NDArray[np.float64]:
-        """Derivatives of the shift factor.
-
-        Parameters
-        ----------
-        temperature : array_like (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray
-            (n, 2) Of ln a_T with respect to ln c1 and ln c2.
-        """
+        """Derivatives (n, 2) of ln a_T by ln c1 and ln c2, at temperatures (n,) [degC]."""
         above = np.asarray(temperature, dtype=float) - self.reference_temperature
         log_factor = -np.log(10.0) * self.c1 * above / (self.c2 + above)
         return np.column_stack([log_factor, -log_factor * self.c2 / (self.c2 + above)])
@@ -85,15 +52,8 @@ class WLF:
 class Arrhenius:
     """Shift by one activation energy Q, ln a_T = Q/R (1/T - 1/T_ref), temperatures in K.
 
-    Parameters
-    ----------
-    activation_energy : float
-        Q [J/mol].
-    reference_temperature : float
-        T_ref [degC].
+    `activation_energy` Q in J/mol, `reference_temperature` T_ref in degC.
 
-    Examples
-    --------
     >>> Arrhenius(activation_energy=200e3, reference_temperature=15.0).factor([5, 15, 25]).round(3).tolist()
     [20.11, 1.0, 0.061]
     """
@@ -102,35 +62,13 @@ class Arrhenius:
     reference_temperature: float
 
     def factor(self, temperature: ArrayLike) -> NDArray[np.float64]:
-        """The shift factor.
-
-        Parameters
-        ----------
-        temperature : array_like
-            [degC].
-
-        Returns
-        -------
-        ndarray
-            a_T, reduced frequency over frequency; 1 at the reference.
-        """
+        """Shift factor a_T, reduced frequency over frequency, at temperatures [degC]; 1 at the reference."""
         kelvin = np.asarray(temperature, dtype=float) + ZERO_CELSIUS
         inverse = 1.0 / kelvin - 1.0 / (self.reference_temperature + ZERO_CELSIUS)
         return np.exp(self.activation_energy / GAS_CONSTANT * inverse)
 
     def log_slopes(self, temperature: ArrayLike) -> NDArray[np.float64]:
-        """Derivative of the shift factor.
-
-        Parameters
-        ----------
-        temperature : array_like (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray
-            (n, 1) Of ln a_T with respect to ln(activation_energy).
-        """
+        """Derivative (n, 1) of ln a_T by ln(activation_energy), at temperatures (n,) [degC]."""
         # ln a_T is proportional to the energy, and so is its own slope by ln Q.
         return np.log(self.factor(temperature))[:, None]
 

@@ -33,20 +33,10 @@ STEP = 1e-5  # of the logarithm of a parameter: central differences err by its s
 
 @dataclass(frozen=True)
 class Printed:
-    """A law, and its mean relative errors of norm and phase against unknown data.
+    """A law of one temperature, and its mean relative errors of norm and phase against unknown data.
 
-    Parameters
-    ----------
-    law : Burgers
-        Of one temperature.
-    omega : ndarray (n,)
-        Angular frequencies of the data [rad/s].
-    error : float
-        Mean relative error of |E*|.
-    phase_error : float
-        Mean relative error of the phase.
-    weight : float
-        Of the phase in the fit, relative to that of ln|E*|.
+    `omega` (n,) in rad/s is that of the data; `error` is of |E*|; `weight` is that of the phase in the fit, relative to
+    that of ln|E*|.
     """
 
     law: Burgers
@@ -57,31 +47,12 @@ class Printed:
 
     @property
     def modulus(self) -> NDArray[np.complex128]:
-        """E* of the law.
-
-        Returns
-        -------
-        ndarray of complex
-            (n,) [Pa].
-        """
+        """E* (n,) [Pa] of the law."""
         return self.law.complex_modulus(self.omega)
 
 
 def log_slopes(law: Burgers, omega: Vector) -> NDArray[np.float64]:
-    """Derivatives of ln|E*| and of the phase by the logarithms of the law's parameters.
-
-    Parameters
-    ----------
-    law : Burgers
-        Of one temperature.
-    omega : ndarray (n,)
-        Angular frequencies [rad/s].
-
-    Returns
-    -------
-    ndarray
-        (2n, 4) Rows of ln|E*|, then rows of the phase [rad].
-    """
+    """Derivatives (2n, 4) of ln|E*|, then of the phase [rad], by ln of the parameters, at `omega` (n,) [rad/s]."""
     values = np.array([law.modulus_m, law.viscosity_m, law.modulus_k, law.viscosity_k])
     columns = []
     for k in range(4):
@@ -93,20 +64,9 @@ def log_slopes(law: Burgers, omega: Vector) -> NDArray[np.float64]:
 
 
 def phase_error(printed: Printed, largest: bool) -> float:
-    """Bound of the mean relative error of the phase of smooth data that have the law as their fit, and its error
-    of the norm.
+    """Largest or smallest mean relative error of the phase of smooth data that meet the law.
 
-    Parameters
-    ----------
-    printed : Printed
-        Law and its error of the norm.
-    largest : bool
-        Whether the largest error is asked for, else the smallest.
-
-    Returns
-    -------
-    float
-        Relative error; NaN where there are no such data.
+    They have the law as their fit, and its error of the norm; NaN where there are no such data.
     """
     return _solved(printed, "largest" if largest else "smallest")
 
@@ -114,15 +74,7 @@ def phase_error(printed: Printed, largest: bool) -> float:
 def least_scatter(printed: Printed) -> float:
     """How far from smooth data must lie that have the law as their fit, and both its errors.
 
-    Parameters
-    ----------
-    printed : Printed
-        Law and errors.
-
-    Returns
-    -------
-    float
-        Largest distance of a point in ln E*, so of ln|E*| as of the phase [rad].
+    Largest distance of a point in ln E*, so of ln|E*| as of the phase [rad].
     """
     return _solved(printed, "scatter")
 

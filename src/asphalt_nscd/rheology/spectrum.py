@@ -19,18 +19,7 @@ class Spectrum(Protocol):
 
     @staticmethod
     def refusal(values: Mapping[str, float]) -> str:
-        """What the law's own parameters must satisfy, if these do not.
-
-        Parameters
-        ----------
-        values : mapping of str to float
-            Parameters by name, in SI units.
-
-        Returns
-        -------
-        str
-            "needs 0 < k < 1", or nothing.
-        """
+        """What the law's own parameters (SI units) must satisfy, as "needs 0 < k < 1", if they do not; else empty."""
 
     title: ClassVar[str]  # as a reader knows it
 
@@ -39,70 +28,22 @@ class Spectrum(Protocol):
         """How frequency and temperature stand for each other."""
 
     def complex_modulus(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Complex modulus.
-
-        Parameters
-        ----------
-        omega : array_like
-            Angular frequencies [rad/s].
-        temperature : array_like
-            [degC], broadcast with omega.
-
-        Returns
-        -------
-        ndarray of complex
-            E* [Pa], of the shape of both together.
-        """
+        """E* [Pa] at angular frequencies [rad/s] and temperatures [degC], broadcast together."""
 
     def log_slopes(self, omega: ArrayLike, temperature: ArrayLike) -> NDArray[np.complex128]:
-        """Derivatives of ln E* with respect to the logarithm of each of its `parameters`.
-
-        Parameters
-        ----------
-        omega : array_like (n,)
-            Angular frequencies [rad/s].
-        temperature : array_like (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray of complex
-            (n, p) In the order of `parameters`.
-        """
+        """Derivatives (n, p) of ln E* by ln of each of `parameters`, at `omega` [rad/s] and `temperature` [degC]."""
 
 
 LAWS: dict[str, Any] = {"2s2p1d": TwoS2P1D, "huet-sayegh": HuetSayegh, "sigmoid": Sigmoid, "cam": CAM}
 
 
 def parameter_names(kind: type) -> list[str]:
-    """Names of a law's or a shift's own parameters; the reference temperature is a choice, none of them.
-
-    Parameters
-    ----------
-    kind : type
-        Class of the law or of the shift.
-
-    Returns
-    -------
-    list of str
-        In the order of its fields.
-    """
+    """Names of a law's or a shift's own parameters; the reference temperature is a choice, none of them."""
     return [field.name for field in fields(kind) if field.name not in ("shift", "reference_temperature")]
 
 
 def parameters(law: Any) -> dict[str, float]:
-    """Parameters of a law by name, those of its shift, if it has one, at the end.
-
-    Parameters
-    ----------
-    law : Spectrum
-        In SI units.
-
-    Returns
-    -------
-    dict of str to float
-        In the order of `parameter_names`.
-    """
+    """Parameters of a law by name in SI units, those of its shift, if it has one, at the end."""
     # A Burgers law is of one temperature and has no shift.
     parts = [law, law.shift] if hasattr(law, "shift") else [law]
     return {name: getattr(part, name) for part in parts for name in parameter_names(type(part))}

@@ -42,29 +42,11 @@ TAUS = np.arange(-12.0, 13.0)
 
 
 class Coordinates:
-    """Coordinates x (p,) of a law with a shift, for given tests.
+    """Coordinates x (p,) of a law (of LAWS) with a shift (of SHIFTS), for given tests.
 
-    Parameters
-    ----------
-    law : str
-        One of LAWS.
-    shift : str
-        One of SHIFTS.
-    omega : ndarray (n,)
-        Angular frequencies of the tests [rad/s].
-    temperature : ndarray (n,)
-        [degC].
-    largest : float
-        Norm of E* of the tests [Pa].
-    reference : float
-        Temperature of the shift [degC].
-    largest_glassy : float
-        Up to which a glassy modulus is sought at least [Pa].
-
-    Raises
-    ------
-    InputError
-        For a law that lacks a parameter from which fits start.
+    Tests: `omega` (n,) in rad/s, `temperature` (n,) in degC, `largest` norm of E* in Pa. `reference` [degC] is of the
+    shift; a glassy modulus is sought at least up to `largest_glassy` [Pa]. A law that lacks a parameter from which fits
+    start is refused.
     """
 
     def __init__(
@@ -104,18 +86,7 @@ class Coordinates:
         self.high[glassy] = max(self.high[glassy], np.log(max(largest_glassy, largest) / largest))
 
     def build(self, x: Vector) -> Spectrum:
-        """The law at some coordinates.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Coordinates.
-
-        Returns
-        -------
-        Spectrum
-            The law, with its shift.
-        """
+        """The law, with its shift, at the coordinates `x` (p,)."""
         given = dict(zip(self.names, x.tolist(), strict=True))
         values = {name: self.scales.get(name, 1.0) * float(np.exp(value)) for name, value in given.items()}
         if "h" in values:
@@ -131,18 +102,7 @@ class Coordinates:
         return self.law(**{name: values[name] for name in self.own}, shift=shift)
 
     def log_slopes(self, x: Vector) -> NDArray[np.float64]:
-        """Derivatives of the logarithms of the parameters.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Coordinates.
-
-        Returns
-        -------
-        ndarray
-            (p, p) A row for each parameter, a column for each coordinate.
-        """
+        """Derivatives (p, p) of the logarithms of the parameters (rows) by the coordinates (columns) at `x` (p,)."""
         slope = np.eye(x.size)
         if "h" in self.names:
             k, h = self.names.index("k"), self.names.index("h")
@@ -154,43 +114,15 @@ class Coordinates:
         return slope
 
     def inside(self, x: Vector) -> NDArray[np.bool_]:
-        """Which coordinates are off their bounds.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Coordinates.
-
-        Returns
-        -------
-        ndarray of bool (p,)
-            True inside.
-        """
+        """Whether each of the coordinates `x` (p,) is off its bounds."""
         return (x > self.low + MARGIN) & (x < self.high - MARGIN)
 
     def random_starts(self, count: int) -> NDArray[np.float64]:
-        """Starts that are uniform over their ranges.
-
-        Parameters
-        ----------
-        count : int
-            How many.
-
-        Returns
-        -------
-        ndarray (count, p)
-            The same for every call.
-        """
+        """Starts (count, p) drawn uniformly over the ranges of the coordinates, the same ones in every call."""
         return np.random.default_rng(SEED).uniform(self.first, self.last, (count, self.first.size))
 
     def usual_starts(self) -> Iterator[NDArray[np.float64]]:
-        """Usual laws to start from.
-
-        Yields
-        ------
-        ndarray (t, p)
-            Groups that differ by tau; the best of a group is a start.
-        """
+        """Groups (t, p) of usual laws that differ by tau; the best of each group is a start."""
         for guess in (*GUESSES, USUAL["glassy_modulus"].median / self.scales["glassy_modulus"]):
             for slope in SLOPES:
                 x = 0.5 * (self.first + self.last)

@@ -29,15 +29,7 @@ SETTLED, ROUNDS = 1e-4, 30  # relative change of the scatter that ends its searc
 
 @dataclass(frozen=True)
 class Form:
-    """Which law is fitted.
-
-    Parameters
-    ----------
-    law : str
-        One of LAWS.
-    shift : str
-        One of SHIFTS.
-    """
+    """Which law is fitted, one of `LAWS`, with which shift, one of `SHIFTS`."""
 
     law: str = "2s2p1d"
     shift: str = "wlf"
@@ -53,36 +45,11 @@ def fit_spectrum(
     prior: Prior | None = None,
     weights: tuple[ArrayLike, ArrayLike] | None = None,
 ) -> Fit[Spectrum]:
-    """Fit one law to all temperatures, all parameters jointly.
+    """Fit one law to the tests at all temperatures, all parameters jointly; without `prior` only the tests count.
 
-    Parameters
-    ----------
-    omega : array_like (n,)
-        Angular frequencies [rad/s].
-    temperature : array_like (n,)
-        [degC].
-    modulus : array_like of complex (n,)
-        E* [Pa].
-    reference_temperature : float
-        Of the shift [degC].
-    form : Form
-        Which law and which shift.
-    prior : Prior, optional
-        What the parameters usually are; without it only the tests count.
-    weights : tuple of array_like, optional
-        Standard deviations of ln|E*| and of the phase [rad] of each test, (n,) or one for all. Without them
-        both count alike, and the scatter is that of the residuals. Residuals larger than the weights allow
-        widen the standard errors in proportion.
-
-    Returns
-    -------
-    Fit of Spectrum
-        Its standard errors go by the names of `spectrum.parameters`.
-
-    Raises
-    ------
-    InputError
-        For too few temperatures or points.
+    `omega` [rad/s], `temperature` [degC] and `modulus` E* [Pa] are (n,), `reference_temperature` is in degC. `weights`
+    are standard deviations of ln|E*| and of the phase [rad], each (n,) or one for all; residuals larger than they allow
+    widen the standard errors in proportion. Without them both count alike, and the scatter is that of the residuals.
     """
     omega, modulus = require_points(omega, modulus)
     law, shift = form.law, form.shift

@@ -14,21 +14,9 @@ from asphalt_nscd.specimen.trimming import Specimen
 
 
 def ratio_without_moments(specimen: Specimen, poisson: float) -> float:
-    """|E*| over the modulus of the bonds if forces act at the barycentres, so that no body is turned.
+    """Static |E*| over the modulus of the bonds if forces act at the barycentres, so that no body is turned.
 
-    Then a tangential force resists the turning of a whole specimen as it resists shear.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-    poisson : float
-        Of Eqs. (8)-(11).
-
-    Returns
-    -------
-    float
-        Static ratio.
+    Then a tangential force resists the turning of a whole specimen as it resists shear. `poisson`: Eqs. (8)-(11).
     """
     system = bending_system(specimen, poisson, np.inf, 0.0)
     translations = np.arange(system.mass.size) % 6 < 3
@@ -43,19 +31,7 @@ def ratio_without_moments(specimen: Specimen, poisson: float) -> float:
 
 
 def with_mean_radius(specimen: Specimen) -> Specimen:
-    """The same bonds with the mean radius r of both spheres in pi r^2; a plate has none, and the sphere's is
-    kept.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-
-    Returns
-    -------
-    Specimen
-        With other areas of bonds.
-    """
+    """The same bonds with the area pi r^2 of both spheres' mean radius r; that to a plate keeps the sphere's r."""
     network = specimen.network
     ends = np.stack([network.first, network.second])
     radius = np.append(specimen.radius, [np.nan, np.nan])[ends]
@@ -64,20 +40,7 @@ def with_mean_radius(specimen: Specimen) -> Specimen:
 
 
 def farther_plates(specimen: Specimen, distance: float) -> Specimen:
-    """The same bonds, those to a plate longer: l0 ends behind the plate's surface.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-    distance : float
-        By which they are longer [m].
-
-    Returns
-    -------
-    Specimen
-        With other lengths of bonds.
-    """
+    """The same bonds, those to a plate longer by `distance` [m]: l0 ends behind the plate's surface."""
     network = specimen.network
     plate = np.maximum(network.first, network.second) >= specimen.radius.size
     return replace(
@@ -86,18 +49,7 @@ def farther_plates(specimen: Specimen, distance: float) -> Specimen:
 
 
 def crossing(specimen: Specimen) -> np.ndarray:
-    """Whether the line of a bond between two spheres passes through a third.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-
-    Returns
-    -------
-    ndarray of bool (c,)
-        One for each bond between spheres; those to the plates are left out.
-    """
+    """Whether the line of each bond between two spheres (c,) passes through a third; plate bonds are left out."""
     n, network = specimen.radius.size, specimen.network
     between = np.maximum(network.first, network.second) < n
     first, second, length = network.first[between], network.second[between], network.length[between]

@@ -13,25 +13,7 @@ MOST_SPHERES = 10_000_000
 
 
 def read_counts(path: str | Path) -> tuple[np.ndarray, np.ndarray]:
-    """The spheres to pour.
-
-    Parameters
-    ----------
-    path : path
-        CSV with columns diameter_mm, count.
-
-    Returns
-    -------
-    ndarray (c,)
-        Diameters [m].
-    ndarray of int (c,)
-        Numbers of spheres.
-
-    Raises
-    ------
-    InputError
-        For no sphere, more than MOST_SPHERES, or a count that is not whole.
-    """
+    """Diameters [m] and numbers (c,) of the spheres to pour, from a CSV with columns diameter_mm, count."""
     table = read_csv(path)
     table.require(["diameter_mm", "count"])
     diameters = table.numbers("diameter_mm", Limits(0.01, 100.0, "give the diameter in mm"))

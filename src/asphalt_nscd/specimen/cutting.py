@@ -20,16 +20,10 @@ KEPT = ("seed", "source", "layer_height_m", "solid_fraction")
 
 @dataclass(frozen=True)
 class Cutting(Ranged):
-    """What becomes of the spheres that are cut out: shrunk, and bonded.
+    """How the spheres that are cut out are shrunk and bonded.
 
-    Parameters
-    ----------
-    volume_reduction : float
-        Part of each volume, where mastic goes.
-    gap_max_mm : float
-        Pairs with a smaller gap are bonded [mm], by area "paper".
-    area : str
-        Of a bond, one of `network.AREAS`.
+    `volume_reduction` is the part of each sphere's volume that mastic takes. Pairs with a gap below `gap_max_mm` are
+    bonded by area "paper"; `area` is one of `network.AREAS`.
     """
 
     volume_reduction: float = within(0.1, low=0.0, below=1.0)
@@ -43,28 +37,9 @@ def trim_deposit(
     cutting: Cutting,
     output: str | Path,
 ) -> Mapping[str, float | int | str]:
-    """Cut a specimen from a deposit, bond its spheres (`trim`), and save.
+    """Cut a specimen from a deposit file, bond its spheres (`trim`), and save; returns what the new file holds.
 
-    Parameters
-    ----------
-    deposit_file : path
-        HDF5 file of a deposit.
-    geometry : mapping or path
-        Mapping of mm and kg, or a JSON file with it.
-    cutting : Cutting
-        Reduction of volume, and bonds.
-    output : path
-        HDF5 file to write.
-
-    Returns
-    -------
-    mapping
-        What it holds.
-
-    Raises
-    ------
-    InputError
-        Where the deposit cannot hold the specimen.
+    `geometry` is a mapping of mm and kg, or a JSON file with it.
     """
     record = load(deposit_file, DEPOSIT)
     shape = read_shape(geometry)
@@ -74,27 +49,7 @@ def trim_deposit(
 
 
 def bonded(deposited: Content, shape: Shape, cutting: Cutting) -> Content:
-    """A specimen file's content, cut from that of a deposit file. See `trim_deposit`.
-
-    Parameters
-    ----------
-    deposited : Content
-        Arrays and attributes of a deposit file.
-    shape : Shape
-        Geometry of the specimen.
-    cutting : Cutting
-        Reduction of volume, and bonds.
-
-    Returns
-    -------
-    tuple of dict
-        Arrays and attributes of a specimen file.
-
-    Raises
-    ------
-    InputError
-        Where the deposit cannot hold the specimen.
-    """
+    """Arrays and attributes of a specimen file, cut from those of a deposit file; see `trim_deposit`."""
     arrays, attributes = deposited
     require_within(shape, arrays["box"].tolist())
     volume_reduction, gap_max, area = cutting.volume_reduction, 1e-3 * cutting.gap_max_mm, cutting.area
@@ -117,40 +72,13 @@ def bonded(deposited: Content, shape: Shape, cutting: Cutting) -> Content:
 
 
 def read_specimen(path: str | Path) -> Specimen:
-    """The specimen in a file made by `trim_deposit`.
-
-    Parameters
-    ----------
-    path : path
-        HDF5 file.
-
-    Returns
-    -------
-    Specimen
-        Bonded spheres.
-
-    Raises
-    ------
-    InputError
-        Where the file is missing, damaged or of another kind.
-    """
+    """Read the specimen in an HDF5 file made by `trim_deposit`."""
     record = load(path, SPECIMEN)
     return specimen_of((record.arrays, record.attributes))
 
 
 def specimen_of(content: Content) -> Specimen:
-    """The specimen in the content of its file.
-
-    Parameters
-    ----------
-    content : Content
-        Arrays and attributes.
-
-    Returns
-    -------
-    Specimen
-        Bonded spheres.
-    """
+    """The specimen in the arrays and attributes of its file."""
     arrays, attributes = content
     return Specimen(
         geometry=shape_of(attributes),

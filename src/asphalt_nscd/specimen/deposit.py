@@ -55,15 +55,7 @@ class PouringHistory:
     touched: list[int] = field(default_factory=list)  # grains touched by the wall in each period
 
     def note(self, bed: GranularBed, wall: float = np.nan) -> None:
-        """Add the present state of the bed, and the height [m] of the wall.
-
-        Parameters
-        ----------
-        bed : GranularBed
-            Whose time [s] and height of the layer [m] are added.
-        wall : float
-            Height of the top wall [m]; NaN while it is out of the way.
-        """
+        """Add the time [s] and layer height [m] of the bed, and the top `wall` [m], NaN while it is out of the way."""
         self.time.append(bed.time)
         self.height.append(bed.layer_height())
         self.wall.append(wall)
@@ -86,22 +78,9 @@ def settle(
     progress: Progress,
     stage: str,
 ) -> None:
-    """Advance until the root mean square speed stays under rest_speed [m/s], at most `longest` [s].
+    """Advance the bed in place until its root mean square speed stays under `rest_speed` [m/s].
 
-    Parameters
-    ----------
-    bed : GranularBed
-        Spheres in motion; it changes in place.
-    numerics : PouringNumerics
-        Time step [s] and what its sweeps do.
-    rest_speed : float
-        Root mean square speed [m/s] under which the bed is at rest, four looks (5 ms apart) in a row.
-    longest : float
-        Time of the bed [s] after which this ends anyway.
-    progress : callable
-        progress(stage, done, total), in seconds of the bed.
-    stage : str
-        Its first argument.
+    It must do so at four looks in a row, 5 ms apart, or `longest` [s] ends it; `progress` is in seconds of the bed.
     """
     n = bed.radius.size
     began = bed.time
@@ -118,25 +97,10 @@ def settle(
 def balance(
     bed: GranularBed, numerics: PouringNumerics, longest: float, progress: Progress, stage: str
 ) -> tuple[float, float]:
-    """Advance with tight sweeps until forces are in equilibrium, at most `longest` [s]; see out_of_balance.
+    """Advance the bed in place with tight sweeps until forces are in equilibrium, at most `longest` [s].
 
-    Parameters
-    ----------
-    bed : GranularBed
-        Spheres near rest; it changes in place.
-    numerics : PouringNumerics
-        Whose tolerance and number of sweeps are replaced by REST_TOLERANCE and REST_SWEEPS.
-    longest : float
-        Time of the bed [s] after which this ends anyway.
-    progress : callable
-        progress(stage, done, total), in seconds of the bed.
-    stage : str
-        Its first argument.
-
-    Returns
-    -------
-    tuple of float
-        The two of `GranularBed.out_of_balance`; below UNBALANCED, unless `longest` ended it.
+    Sweeps follow REST_TOLERANCE and REST_SWEEPS; `progress` is in seconds of the bed. Returns the two of
+    `GranularBed.out_of_balance`, below UNBALANCED unless `longest` ended it.
     """
     tight = replace(numerics, tolerance=REST_TOLERANCE, most_sweeps=REST_SWEEPS)
     began = bed.time
@@ -160,23 +124,10 @@ def vibrate(
 ) -> None:
     """Drive the top wall by stroke/2 cos(2 pi f t) about the top of the layer, found anew in each period.
 
-    The lower half of the stroke would pass through rigid grains once they lie dense. So the wall is a light
-    plate between rails: its drive pushes with at most `pressure` [Pa].
-
-    Parameters
-    ----------
-    bed : GranularBed
-        A layer at rest; it changes in place, and its wall hangs clear of the grains in the end.
-    numerics : PouringNumerics
-        Time step [s] and what its sweeps do.
-    vibration : Vibration
-        Stroke [m], frequency f [Hz] and duration [s].
-    pressure : float
-        The most that the drive pushes with, over the area of the box [Pa].
-    history : PouringHistory
-        Takes heights each 5 ms, and for each period how many grains the wall touched.
-    progress : callable
-        progress("vibrating", done, total), in steps.
+    The lower half of the stroke would pass through rigid grains once they lie dense. So the wall is a light plate
+    between rails: its drive pushes with at most `pressure` [Pa] over the area of the box. The bed changes in place; its
+    wall hangs clear of the grains in the end. `history` takes heights each 5 ms and, per period, how many grains the
+    wall touched.
     """
     # only what falls may overlap more for a moment: what the wall presses together stays in the layer
     numerics = replace(

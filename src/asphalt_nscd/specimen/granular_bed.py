@@ -32,28 +32,10 @@ LARGEST_RATIO = 10.0  # of diameters: a heavier sphere sinks into light ones, wh
 class PouringNumerics:
     """Numerical choices of the preparation; each is written into the deposit file.
 
-    Parameters
-    ----------
-    time_step : float
-        [s].
-    tolerance : float
-        Relative change of the impulses in the last sweep.
-    most_sweeps : int
-        In a step.
-    falling_sweeps : int
-        After so many the tolerance is waived while the mean speed is above FALLING.
-    penetration : float
-        Sweeps go on while the step would deepen an overlap by more [m].
-    falling_penetration : float
-        The same while the mean speed is above FALLING [m].
-    skin : float
-        Pairs are searched again when a sphere has moved half of it [m].
-    margin : float
-        Gap below which a resting pair takes part in a step [m]; of moving pairs see _search.
-    recovery_speed : float
-        At most, by which overlaps are undone [m/s].
-    allowed_overlap : float
-        Left as it is [m].
+    `time_step` in s, `recovery_speed` (overlaps are undone by it at most) in m/s; all lengths in m: pairs are searched
+    anew once a sphere moved half of `skin`; a resting pair takes part in a step below the gap `margin`; sweeps go on
+    while the step would deepen an overlap by `penetration` (`falling_penetration` while the mean speed is above
+    FALLING) or impulses change relatively by `tolerance` in the last one; `allowed_overlap` is left as it is.
     """
 
     time_step: float = 4e-4
@@ -73,29 +55,12 @@ class PouringNumerics:
 
     @classmethod
     def of(cls, radius: np.ndarray, time_step: float) -> PouringNumerics:
-        """Those for some spheres.
+        """Numerical choices for spheres of `radius` (n,) [m], in proportion to the smallest; `time_step` in s.
 
-        The sweeps of a step leave small overlaps everywhere in a layer. Undone at once, they would keep it in
-        motion for ever; so those below ALLOWED_OVERLAP stay. An impact may need many sweeps, most steps need
-        few: they end when the impulses hardly change and no step deepens an overlap by PENETRATION. A falling
-        grain may enter another for a moment, which changes nothing of the layer.
-
-        Parameters
-        ----------
-        radius : ndarray (n,)
-            Of the spheres [m].
-        time_step : float
-            [s].
-
-        Returns
-        -------
-        PouringNumerics
-            In proportion to the smallest sphere.
-
-        Raises
-        ------
-        InputError
-            For diameters that differ by more than LARGEST_RATIO.
+        Small overlaps are left everywhere in a layer. Undone at once, they would keep it in motion for ever; so those
+        below ALLOWED_OVERLAP stay. An impact may need many sweeps, most steps need few: they end when the impulses
+        hardly change and no step deepens an overlap by PENETRATION. A falling grain may enter another for a moment,
+        which changes nothing of the layer.
         """
         smallest, largest = float(radius.min()), float(radius.max())
         # a sphere sinks into a grain of 1/1000 of its mass by 0.005 of the grain's radius, into one of
@@ -119,36 +84,12 @@ class PouringNumerics:
 
 @dataclass
 class GranularBed:
-    """Spheres in a box, in motion. Bodies n, n + 1, ... of `velocity` are the planes.
+    """Spheres in motion in a box; bodies n, n + 1, ... of `velocity` are the p planes.
 
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    velocity : ndarray (n + p, 6)
-        [m/s], linear and spin (surface velocity).
-    inverse_mass : ndarray (n + p,)
-        [1/kg].
-    plane_point : ndarray (p, 3)
-        [m].
-    plane_normal : ndarray (p, 3)
-        Unit vectors that point to the spheres.
-    friction : float
-        Of spheres.
-    restitution : float
-        Of impacts.
-    wall_friction : float, optional
-        None: that of spheres.
-    gravity : ndarray (3,)
-        [m/s2].
-    time : float
-        Gone [s].
-    steps, sweeps : int
-        Made.
-    team : Team
-        Threads; any number of them gives the same numbers.
+    `position` (n, 3) and `radius` (n,) in m; `velocity` (n + p, 6) in m/s, linear and spin (surface velocity);
+    `inverse_mass` (n + p,) in 1/kg; `plane_point` (p, 3) in m; `plane_normal` (p, 3) has unit vectors that point to the
+    spheres; `gravity` (3,) in m/s2. `wall_friction` None means that of spheres. `time` [s], `steps` and `sweeps` are
+    those made so far. Any number of threads in `team` gives the same numbers.
     """
 
     position: np.ndarray
@@ -194,27 +135,8 @@ class GranularBed:
     ) -> GranularBed:
         """Spheres at rest in a box [0, length] x [0, width] x [0, height]; plane 5 is its top.
 
-        Parameters
-        ----------
-        position : ndarray (n, 3)
-            [m].
-        radius : ndarray (n,)
-            [m].
-        box : tuple of float
-            Length, width and height [m].
-        density : float
-            Of the spheres [kg/m3].
-        friction : float
-            Between spheres.
-        restitution : float
-            Of impacts.
-        wall_friction : float, optional
-            With the box; None for that between spheres.
-
-        Returns
-        -------
-        GranularBed
-            The bed.
+        `position` (n, 3), `radius` (n,) and `box` in m, `density` of the spheres in kg/m3. `friction` is that between
+        spheres, `wall_friction` that with the box (None: the same).
         """
         size = np.asarray(box, float)
         normal = np.concatenate([np.eye(3), -np.eye(3)])
@@ -246,21 +168,9 @@ class GranularBed:
     def advance(
         self, numerics: PouringNumerics, plane_velocity: np.ndarray | None = None
     ) -> tuple[int, float]:
-        """One step.
+        """Advance by one step; returns its sweeps and the relative change of the last one.
 
-        Parameters
-        ----------
-        numerics : PouringNumerics
-            Step and tolerances.
-        plane_velocity : ndarray (p, 3), optional
-            Of the planes [m/s]; None: at rest.
-
-        Returns
-        -------
-        int
-            Sweeps.
-        float
-            Relative change of the last sweep.
+        `plane_velocity` (p, 3) in m/s; None holds the planes at rest.
         """
         n, dt = self.radius.size, numerics.time_step
         if plane_velocity is not None:
@@ -392,20 +302,7 @@ class GranularBed:
         return float(0.5 * (square / self.inverse_mass[:n]).sum())
 
     def contacts(self, below: float) -> tuple[np.ndarray, np.ndarray]:
-        """Contacts with a small gap.
-
-        Parameters
-        ----------
-        below : float
-            The gap [m].
-
-        Returns
-        -------
-        ndarray of int (c, 2)
-            Bodies.
-        ndarray (c,)
-            Gaps [m].
-        """
+        """Bodies (c, 2) and gaps (c,) [m] of the contacts with a gap smaller than `below` [m]."""
         # searched anew: the list in use holds what may meet in a step, which may be less than is asked
         start, other = neighbours.find_pairs(
             self.position, self.radius, self.plane_point, self.plane_normal, below
@@ -428,26 +325,12 @@ class GranularBed:
         return layer_height(self.position, self.radius)
 
     def hang_wall(self, height: float, mass: float) -> None:
-        """Put the top wall between rails; `drive` then moves it.
-
-        Parameters
-        ----------
-        height : float
-            [m].
-        mass : float
-            [kg].
-        """
+        """Hang the top wall of `mass` [kg] at `height` [m] between rails, where `drive` moves it."""
         self.inverse_mass[-1] = 1.0 / mass
         self._put_wall(height)
 
     def fix_wall(self, height: float) -> None:
-        """Put the top wall where it stays.
-
-        Parameters
-        ----------
-        height : float
-            [m].
-        """
+        """Put the top wall at `height` [m], where it stays."""
         self.inverse_mass[-1] = 0.0
         self._put_wall(height)
 
@@ -465,19 +348,10 @@ class GranularBed:
         return np.sort(np.searchsorted(self._start, pair, side="right") - 1)
 
     def out_of_balance(self, time_step: float) -> tuple[float, float]:
-        """How far the forces of the last step are from equilibrium; both near zero at rest.
+        """How far the forces of the last step, `time_step` [s] long, are from equilibrium; both near zero at rest.
 
-        Parameters
-        ----------
-        time_step : float
-            Its length [s].
-
-        Returns
-        -------
-        float
-            The force on all planes against the weight, less one.
-        float
-            The mean resultant on a sphere, its weight included, over the mean contact force.
+        First, by what fraction the force on all planes differs from the weight; second, the mean resultant on a sphere,
+        its weight included, over the mean contact force.
         """
         n = self.radius.size
         weight = self.gravity / self.inverse_mass[:n, None] * time_step  # as impulses
@@ -494,19 +368,10 @@ class GranularBed:
         return abs(float(carried) - 1.0), float(resultant / np.linalg.norm(impulse, axis=1).mean())
 
     def contact_forces(self, time_step: float) -> tuple[np.ndarray, np.ndarray]:
-        """Contacts that bore something in the last step. Bodies n and above are planes.
+        """Bodies (c, 2) and forces (c, 3) [N] of the contacts that bore something in the last step.
 
-        Parameters
-        ----------
-        time_step : float
-            Its length [s].
-
-        Returns
-        -------
-        ndarray of int (c, 2)
-            Bodies.
-        ndarray (c, 3)
-            Forces on the second body [N]; their opposites act on the first.
+        The step is `time_step` [s] long. Forces act on the second body, their opposites on the first; bodies n and
+        above are planes.
         """
         first, second, impulse = self._pushed()
         return np.stack([first, second], axis=1), impulse / time_step

@@ -10,34 +10,12 @@ from asphalt_nscd.files.errors import InputError
 def random_lattice(
     diameters: np.ndarray, counts: np.ndarray, box: tuple[float, float, float], rng: np.random.Generator
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Spheres strewn over the cells of a cubic lattice, ordered by height.
+    """Positions (n, 3) and radii (n,) [m] of spheres strewn over a cubic lattice, ordered by height.
 
-    The lattice constant is the largest diameter, widened to fit the box. The paper's 14 160 spheres outnumber
-    its at most 8 000 cells, so a cell holds either one sphere or up to eight of those that fit into its
-    octants; the smallest sphere always does.
-
-    Parameters
-    ----------
-    diameters : ndarray (c,)
-        [m].
-    counts : ndarray of int (c,)
-        Spheres of each diameter.
-    box : tuple of float
-        Length, width and height [m].
-    rng : Generator
-        Which sphere comes where.
-
-    Returns
-    -------
-    ndarray (n, 3)
-        Positions [m].
-    ndarray (n,)
-        Radii [m].
-
-    Raises
-    ------
-    InputError
-        Where the box is smaller than a sphere, or has too few cells.
+    `diameters` (c,) and `box` (length, width, height) in m; `counts` (c,) are the spheres of each diameter. The lattice
+    constant is the largest diameter, widened to fit the box. The paper's 14 160 spheres outnumber its at most 8 000
+    cells, so a cell holds either one sphere or up to eight of those that fit into its octants; the smallest sphere
+    always does.
     """
     diameters, counts = np.asarray(diameters, float), np.asarray(counts, int)
     size = np.asarray(box, float)

@@ -23,22 +23,9 @@ AREAS = ("paper", "facets")
 class Network:
     """Bonds between bodies, one row each, and the volumes that they leave to the spheres.
 
-    Parameters
-    ----------
-    first, second : ndarray of int (b,)
-        Bodies.
-    frame : ndarray (b, 3, 3)
-        Rows: normal from first to second, two tangents.
-    point : ndarray (b, 3)
-        Where the bond acts [m]: middle of the gap, or centroid of the facet.
-    gap : ndarray (b,)
-        [m].
-    length : ndarray (b,)
-        l0 between the barycentres [m].
-    area : ndarray (b,)
-        pi rmin^2, or the facet [m2].
-    cell : ndarray (n,)
-        Cells of the spheres [m3]; (0,) of bonds without.
+    `frame` (b, 3, 3) has rows: normal from first to second, two tangents. `point` (b, 3) in m is where the bond acts:
+    the middle of the gap, or the centroid of the facet. `gap` and `length` (l0 between barycentres), (b,) in m; `area`
+    (b,) in m2 is pi rmin^2 or the facet; `cell` (n,) in m3 the cells of the spheres, (0,) for bonds without.
     """
 
     first: np.ndarray
@@ -52,13 +39,7 @@ class Network:
 
     @property
     def form(self) -> np.ndarray:
-        """Stiffness per modulus, as in Eqs. (30)-(33).
-
-        Returns
-        -------
-        ndarray (b,)
-            g = A / l0 [m].
-        """
+        """Stiffness of each bond per modulus, as in Eqs. (30)-(33): g = A / l0 [m], (b,)."""
         return self.area / self.length
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -67,26 +48,10 @@ class Network:
 
 
 def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach: float) -> Network:
-    """Bond every pair of spheres, and every sphere and end plate, that are near.
+    """Bond every pair of spheres, and every sphere and end plate, with a gap below `reach` [m], by area "paper".
 
-    The lever arm ends in the middle of the gap; for a plate, l0 is the distance from the barycentre to its
-    surface.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m], z = 0 at the foot.
-    radius : ndarray (n,)
-        [m].
-    height : float
-        z of the head [m].
-    reach : float
-        Gap below which bodies are bonded [m].
-
-    Returns
-    -------
-    Network
-        Bonds by area "paper".
+    `position` (n, 3), z = 0 at the foot, `radius` (n,) and the `height` z of the head in m. The lever arm ends in the
+    middle of the gap; for a plate, l0 is the distance from the barycentre to its surface.
     """
     n = radius.size
     no_plane = np.empty((0, 3))
@@ -118,27 +83,10 @@ def bond_network(position: np.ndarray, radius: np.ndarray, height: float, reach:
 def facet_network(position: np.ndarray, radius: np.ndarray, shape: Shape) -> Network:
     """Bond every pair of spheres whose cells share a facet, and every sphere whose cell reaches a plate.
 
-    Let all spheres follow a uniform strain eps without turning, and let kt = kn. A bond opens by l eps n and carries
-    E A/l . l eps n = E A eps n, the traction of a continuum with the stress E eps. A cell is a closed polyhedron:
-
-        sum A n = 0,    sum A (c - x) (x) n = V I    (c centroid of a facet, x centre of the sphere).
-
-    By the first identity the forces on a sphere cancel. By the second the torques do, if the bond acts at the centroid
-    of its facet. So any uniform strain is in equilibrium in any packing, with the modulus E and Poisson's ratio zero.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        Inside the specimen [m], z = 0 at the foot.
-    radius : ndarray (n,)
-        [m].
-    shape : Shape
-        Geometry of the specimen.
-
-    Returns
-    -------
-    Network
-        Bonds by area "facets".
+    `position` (n, 3), z = 0 at the foot, and `radius` (n,) in m. If spheres follow a uniform strain eps unturned and kt
+    = kn, a bond opens by l eps n and carries E A eps n, the traction of a continuum with the stress E eps. In a closed
+    cell sum A n = 0: forces cancel; and sum A (c - x) (x) n = V I (c centroid of a facet, x centre of the sphere):
+    torques do too if bonds act at c. Any uniform strain is in equilibrium in any packing: modulus E, Poisson's ratio 0.
     """
     n, plates = radius.size, shape.plates
     order = sorted(range(len(plates)), key=lambda k: plates[k].height)
@@ -168,18 +116,7 @@ def facet_network(position: np.ndarray, radius: np.ndarray, shape: Shape) -> Net
 
 
 def region_of(shape: Shape) -> Region:
-    """The specimen between the planes of head, foot and its free faces, in this order.
-
-    Parameters
-    ----------
-    shape : Shape
-        Geometry of the specimen.
-
-    Returns
-    -------
-    Region
-        Convex polyhedron.
-    """
+    """The specimen between the planes of head, foot and its free faces, in this order."""
     return Region(*shape.faces(), np.array([0.0, 0.0, shape.h / 2.0]))
 
 

@@ -28,14 +28,7 @@ _EDGES = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
 class Region:
     """A convex polyhedron, normal . x <= offset for each face.
 
-    Parameters
-    ----------
-    normal : ndarray (p, 3)
-        Outward, of unit length.
-    offset : ndarray (p,)
-        [m].
-    inside : ndarray (3,)
-        A point of it [m].
+    `normal` (p, 3) is outward, of unit length; `offset` (p,) in m; `inside` (3,) in m is a point of it.
     """
 
     normal: np.ndarray
@@ -69,18 +62,7 @@ class Facets:
         return float((self.area * self.length).sum() / 3.0)
 
     def cells(self, position: np.ndarray) -> np.ndarray:
-        """Volume of the cell of each sphere: the sum of the pyramids from its centre over the facets of the cell.
-
-        Parameters
-        ----------
-        position : ndarray (n, 3)
-            Centres of the spheres that made the diagram [m].
-
-        Returns
-        -------
-        ndarray (n,)
-            Volumes [m3]; together they fill the region.
-        """
+        """Volume (n,) [m3] of each cell, as pyramids from its sphere's centre `position` (n, 3) [m] over its facets."""
         n, own = len(position), self.second < len(position)
         height = ((self.centroid - position[self.first]) * self.frame[:, 0]).sum(axis=1)
         volume = np.bincount(self.first, self.area * height / 3.0, n)
@@ -88,29 +70,10 @@ class Facets:
 
 
 def power_diagram(position: np.ndarray, radius: np.ndarray, region: Region) -> Facets:
-    """Facets of the power diagram of spheres in a region.
+    """Facets of the power diagram of spheres in a region, one row each; `position` (n, 3) and `radius` (n,) in m.
 
-    Facets smaller than NEGLIGIBLE of the section of the smaller sphere are left out. Spheres near a face are
-    mirrored, then those farther away, until the cells fill the region.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        Centres in the region [m].
-    radius : ndarray (n,)
-        [m].
-    region : Region
-        Which the cells fill.
-
-    Returns
-    -------
-    Facets
-        One row for each facet.
-
-    Raises
-    ------
-    ArithmeticError
-        Where the cells never fill the region.
+    Facets smaller than NEGLIGIBLE of the section of the smaller sphere are left out. Spheres near a face are mirrored,
+    then those farther away, until the cells fill the region. Raises ArithmeticError where they never do.
     """
     distance = region.offset - position @ region.normal.T
     # far enough that each face mirrors a sphere: the diagram is open where one mirrors none
@@ -219,18 +182,7 @@ def _polygons(start: np.ndarray, point: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 def frames(normal: np.ndarray) -> np.ndarray:
-    """Orthonormal frames.
-
-    Parameters
-    ----------
-    normal : ndarray (b, 3)
-        Unit vectors.
-
-    Returns
-    -------
-    ndarray
-        (b, 3, 3) Whose first rows are the normals.
-    """
+    """Orthonormal frames (b, 3, 3) whose first rows are the unit vectors `normal` (b, 3)."""
     # the axis least along the normal: their cross product is never small
     axis = np.eye(3)[np.argmin(np.abs(normal), axis=1)]
     tangent = np.cross(normal, axis)

@@ -67,28 +67,7 @@ class Surfaces(Ranged):
 
 @dataclass(frozen=True)
 class Pouring(Ranged):
-    """Where spheres fall, and how.
-
-    Parameters
-    ----------
-    box : tuple of float
-        Length, width and height [m].
-    seed : int
-        Of the random lattice.
-    surfaces : Surfaces
-        Friction and restitution.
-    vibration : Vibration
-        Of the top wall.
-    time_step : float
-        [s].
-    threads : int
-        They change no number.
-
-    Raises
-    ------
-    InputError
-        For a box, a step or threads out of range, or too many steps.
-    """
+    """Where spheres fall, and how: `box` is length, width, height [m], `time_step` [s]; `threads` change no number."""
 
     box: tuple[float, float, float]
     seed: int = within(0, low=0)
@@ -127,29 +106,7 @@ def deposit(
     output: str | Path,
     progress: Progress = lambda stage, done, total: None,
 ) -> Mapping[str, Any]:
-    """Pour spheres, or go on with those of a deposit file, and save.
-
-    Parameters
-    ----------
-    spheres : path
-        Table of counts, or a deposit file (.h5).
-    pouring : Pouring
-        Box, seed, surfaces, vibration.
-    output : path
-        HDF5 file to write.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    mapping
-        The file's attributes.
-
-    Raises
-    ------
-    InputError
-        Where the box cannot hold the spheres.
-    """
+    """Pour a table of spheres, or go on from a deposit file (.h5), and save; returns the attributes of the file."""
     path = Path(spheres)
     if path.suffix == ".h5":
         kept = load(path, DEPOSIT).arrays
@@ -165,27 +122,7 @@ def pour(
     pouring: Pouring,
     progress: Progress = lambda stage, done, total: None,
 ) -> Content:
-    """Pour spheres and vibrate them.
-
-    Parameters
-    ----------
-    spheres : tuple of ndarray
-        Diameters [m] and their counts.
-    pouring : Pouring
-        Box, seed, surfaces, vibration.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    tuple of dict
-        Arrays and attributes of a deposit file.
-
-    Raises
-    ------
-    InputError
-        Where the box cannot hold the spheres.
-    """
+    """Pour spheres, given by diameters [m] and counts, and vibrate them; returns content of a deposit file."""
     rng = np.random.default_rng(pouring.seed)
     bed = _bed(*random_lattice(*spheres, pouring.box, rng), pouring)
     bed.let_fall()
@@ -198,29 +135,7 @@ def pour_on(
     pouring: Pouring,
     progress: Progress = lambda stage, done, total: None,
 ) -> Content:
-    """The same from where spheres stand.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    pouring : Pouring
-        Box, surfaces, vibration.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    tuple of dict
-        Arrays and attributes of a deposit file.
-
-    Raises
-    ------
-    InputError
-        Where spheres lie outside the box.
-    """
+    """Pour on from where spheres stand, `position` (n, 3), `radius` (n,) in m; returns content of a deposit file."""
     slack = DEEP * radius.min()
     low, high = position - radius[:, None], position + radius[:, None]
     # so asked that NaN is outside
@@ -304,18 +219,7 @@ def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
 
 
 def unrest(attributes: Mapping[str, Any]) -> str:
-    """What to make of a layer whose forces are not in equilibrium.
-
-    Parameters
-    ----------
-    attributes : mapping
-        Of a deposit file.
-
-    Returns
-    -------
-    str
-        One sentence; nothing of a layer at rest.
-    """
+    """A sentence on a layer whose forces are not in equilibrium; empty for a layer at rest."""
     carried, unbalanced = attributes["weight_balance"], attributes["unbalanced_force"]
     if max(carried, unbalanced) <= OUT_OF_BALANCE:
         return ""
@@ -350,26 +254,11 @@ def _stage(
 def layer_statistics(
     position: np.ndarray, radius: np.ndarray, box: tuple[float, float, float], contacts: np.ndarray
 ) -> dict[str, float]:
-    """Height, solid fraction, coordination and segregation of a layer on the floor of the box.
+    """Height, solid fraction, coordination and segregation of a layer, by the names of the file's attributes.
 
-    Segregation is the difference between the mean heights of the largest and of the smallest spheres over the
-    height of the layer: zero when mixed, positive when large spheres are on top.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    box : tuple of float
-        Length, width and height [m].
-    contacts : ndarray of int (c, 2)
-        Bodies of each contact.
-
-    Returns
-    -------
-    dict of str to float
-        By the names of the file's attributes.
+    `position` (n, 3), `radius` (n,) and `box` in m, `contacts` (c, 2) are bodies. Segregation is the difference between
+    the mean heights of the largest and of the smallest spheres over the height of the layer: zero when mixed, positive
+    when large spheres are on top.
     """
     n, height = radius.size, layer_height(position, radius)
     between = contacts[(contacts < n).all(axis=1)]

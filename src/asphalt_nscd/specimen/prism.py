@@ -23,27 +23,10 @@ def cut_prism(
     geometry: Geometry,
     bond: Callable[[np.ndarray, np.ndarray], Network],
 ) -> Specimen:
-    """Spheres of a layer whose centres lie in a prism b x e x h; its length h along x of the layer, b along z.
+    """Cut the spheres whose centres lie in a prism b x e x h; its length h along x of the layer, b along z.
 
+    `position` (n, 3) and `radius` (n,) are of the layer, `corner` (3,) has the least x, y, z of the prism, in m.
     Spheres that hang on no chain of bonds between the ends are left out. Density 1 kg/m3: for statics.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        Of the layer [m].
-    radius : ndarray (n,)
-        Of the layer [m].
-    corner : ndarray (3,)
-        Least x, y, z of the prism in the layer [m].
-    geometry : Geometry
-        b, e and h.
-    bond : callable
-        Network of positions and radii.
-
-    Returns
-    -------
-    Specimen
-        Bonded spheres.
     """
     size = np.array([geometry.h, geometry.e, geometry.b])
     local = position - corner
@@ -61,41 +44,16 @@ def cut_prism(
 
 
 def pull(prism: Specimen, share: np.ndarray) -> tuple[float, float]:
-    """Pull the ends of a prism apart. See `stretched`.
+    """E over the modulus of the bonds, and Poisson's ratio, of a prism whose ends are pulled apart; see `stretched`.
 
-    Parameters
-    ----------
-    prism : Specimen
-        Bonded spheres.
-    share : ndarray (3,)
-        Normal and two tangential stiffnesses of a bond over A / l.
-
-    Returns
-    -------
-    float
-        E over the modulus of the bonds.
-    float
-        Poisson's ratio.
+    `share` (3,) is the normal and two tangential stiffnesses of a bond over A / l.
     """
     system = pulled_system(prism, (prism.network.form[:, None] * share).ravel())
     return stretched(prism, system, static_motion(system))
 
 
 def pulled_system(prism: Specimen, weight: np.ndarray) -> BondedSystem:
-    """A prism between a fixed plate and one that moves along z. For statics.
-
-    Parameters
-    ----------
-    prism : Specimen
-        Bonded spheres.
-    weight : ndarray (3 b,)
-        Of its bonds [m].
-
-    Returns
-    -------
-    BondedSystem
-        Without load.
-    """
+    """A prism between a fixed plate and one moved along z, for statics; `weight` (3 b,) of its bonds [m]."""
     n, network = prism.radius.size, prism.network
     position = np.concatenate([prism.position, [[0.0, 0.0, prism.geometry.h]]])
     operator = opening_operator(network.first, network.second, network.frame, network.point, position)
@@ -115,27 +73,11 @@ def pulled_system(prism: Specimen, weight: np.ndarray) -> BondedSystem:
 
 
 def stretched(prism: Specimen, system: BondedSystem, motion: np.ndarray) -> tuple[float, float]:
-    """Modulus and Poisson's ratio of a prism pulled.
+    """E over the modulus to which the weights refer, and Poisson's ratio, of a prism pulled.
 
-    The plates neither turn nor contract. Strains are slopes of a line through the displacements of the
-    spheres in the middle third of the length; Poisson's ratio is the mean of both lateral ones. Force over
-    the nominal section b e.
-
-    Parameters
-    ----------
-    prism : Specimen
-        Bonded spheres.
-    system : BondedSystem
-        Its `pulled_system`.
-    motion : ndarray (d,)
-        Its displacements where the plates part by one.
-
-    Returns
-    -------
-    float
-        E over the modulus to which the weights refer.
-    float
-        Poisson's ratio.
+    `motion` (d,) are displacements of its `pulled_system` where the plates part by one. The plates neither turn nor
+    contract. Strains are slopes of a line through the displacements of the spheres in the middle third of the length;
+    Poisson's ratio is the mean of both lateral ones. The stress is the force over the nominal section b e.
     """
     n, geometry = prism.radius.size, prism.geometry
     middle = np.abs(prism.position[:, 2] - geometry.h / 2) < MEASURED * geometry.h / 2
@@ -146,18 +88,7 @@ def stretched(prism: Specimen, system: BondedSystem, motion: np.ndarray) -> tupl
 
 
 def static_motion(system: BondedSystem) -> np.ndarray:
-    """Static motion of a system whose driven degree of freedom moves by one.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Supports, bonds and the degree of freedom that is driven.
-
-    Returns
-    -------
-    ndarray (d,)
-        Displacements over that of the driven degree of freedom, which is one.
-    """
+    """Static displacements (d,) of a system whose driven degree of freedom moves by one."""
     free, k = system.free, system.stiffness()
     matrix, coupling = k[free][:, free].tocsc(), k[free][:, [system.driven]].toarray()[:, 0]
     factor, motion = factorise(matrix, system), np.ones(system.mass.size)
@@ -167,37 +98,11 @@ def static_motion(system: BondedSystem) -> np.ndarray:
 
 
 def static_ratio(system: BondedSystem, shape: Shape) -> float:
-    """c: static |E*| of a test by its form factor, over the modulus of the bonds.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds of the specimen.
-    shape : Shape
-        Its geometry.
-
-    Returns
-    -------
-    float
-        Dimensionless.
-    """
+    """c: static |E*| of a test by its form factor, over the modulus of the bonds."""
     return shape.form_factor() * stiffness(system, static_motion(system))
 
 
 def stiffness(system: BondedSystem, motion: np.ndarray) -> float:
-    """Static stiffness per unit modulus: twice the energy of a motion of unit head.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds of the specimen.
-    motion : ndarray (d,)
-        Displacements.
-
-    Returns
-    -------
-    float
-        [m].
-    """
+    """Static stiffness per unit modulus [m]: twice the energy of `motion` (d,) of unit head displacement."""
     opening = system.operator @ motion
     return float(system.weight @ opening**2)

@@ -17,78 +17,38 @@ HEADS = ("free", "blocked")
 
 
 def affine_modulus(kt_over_kn: float) -> float:
-    """E of an isotropic network that fills the volume, over that of its bonds, where all spheres follow the strain.
+    """E of an isotropic network that fills the volume, over that of its bonds, if all spheres follow the strain.
 
-    Parameters
-    ----------
-    kt_over_kn : float
-        Tangential over normal stiffness of the bonds, a.
-
-    Returns
-    -------
-    float
-        (2 + 3 a) / (4 + a): 1/2 of bonds without tangential stiffness, 1 where both are alike.
+    (2 + 3 a) / (4 + a) for `kt_over_kn` = a: 1/2 of bonds without tangential stiffness, 1 where both are alike.
     """
     return (2.0 + 3.0 * kt_over_kn) / (4.0 + kt_over_kn)
 
 
 def affine_poisson(kt_over_kn: float) -> float:
-    """Poisson's ratio of a network whose spheres follow the mean strain: from 1/4 without tangential stiffness
-    to -1 with no other.
+    """Poisson's ratio of a network whose spheres follow the mean strain.
 
-    Isotropic normals n, spheres that follow the strain (Voigt), a = kt/kn and sum(A l) = 3 V give the stiffness
-    C = 3 E < n n n n + a (n n d - n n n n) >, d being the unit tensor.
-
-    Parameters
-    ----------
-    kt_over_kn : float
-        Tangential over normal stiffness.
-
-    Returns
-    -------
-    float
-        Dimensionless.
+    It goes from 1/4 without tangential stiffness to -1 with no other. Isotropic normals n, spheres that follow the
+    strain (Voigt), a = kt/kn and sum(A l) = 3 V give the stiffness C = 3 E < n n n n + a (n n d - n n n n) >, d being
+    the unit tensor.
     """
     return (1.0 - kt_over_kn) / (4.0 + kt_over_kn)
 
 
 def facet_share(shape: Shape, kt_over_kn: float) -> np.ndarray:
-    """Stiffnesses of a facet over E A / l, E being the modulus of the law.
+    """Stiffnesses (3,) of a facet over E A / l, normal and two tangential, E being the modulus of the law.
 
-    The law is that of |E*| by the form factor of the test. That of two-point bending counts bending alone:
-    the material is stiffer by the part that shear has in the deflection. One constant from theory
-    (docs/mapping.md), none from a specimen.
-
-    Parameters
-    ----------
-    shape : Shape
-        Of the specimen; it says what share of the deflection its form factor counts.
-    kt_over_kn : float
-        Tangential over normal stiffness of the bonds.
-
-    Returns
-    -------
-    ndarray (3,)
-        Normal, then two tangential, without a unit.
+    The law is that of |E*| by the form factor of the test. That of two-point bending counts bending alone: the material
+    is stiffer by the part that shear has in the deflection. One constant from theory (docs/mapping.md), none from a
+    specimen.
     """
     modulus = affine_modulus(kt_over_kn) * shape.counted_share(affine_poisson(kt_over_kn))
     return np.array([1.0, kt_over_kn, kt_over_kn]) / modulus
 
 
 def inertia(specimen: Specimen) -> np.ndarray:
-    """Masses and moments of inertia that move with each sphere, side by side.
+    """Three times the mass [kg] and three times the moment of inertia [kg m2] of each sphere, (n, 6).
 
     Cells that fill the specimen bear its mass as evenly as its stiffness; spheres of one density do not.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-
-    Returns
-    -------
-    ndarray
-        (n, 6) Three times the mass [kg], three times the moment of inertia [kg m2].
     """
     cell = specimen.network.cell
     # masses of cells leave the first resonance of a bar 7e-5 from c/4L, those of spheres 3.7e-3
@@ -102,21 +62,9 @@ def inertia(specimen: Specimen) -> np.ndarray:
 
 
 def bond_weight(specimen: Specimen, poisson: float, kt_over_kn: float) -> np.ndarray:
-    """Stiffness per modulus of the bonds; see `bending_system`.
+    """Stiffness per modulus w [m] of the bonds (b, 3), normal and tangential; see `bending_system`.
 
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-    poisson : float
-        Of Eqs. (8)-(11), for bonds of area "paper".
-    kt_over_kn : float
-        Tangential over normal stiffness, for "facets".
-
-    Returns
-    -------
-    ndarray
-        (b, 3) w [m], normal and tangential.
+    `poisson` is of Eqs. (8)-(11), for area "paper"; `kt_over_kn` is for "facets".
     """
     if specimen.area == "facets":
         stiffness = facet_share(specimen.geometry, kt_over_kn)
@@ -134,37 +82,12 @@ def bending_system(
     gravity: float = 9.81,
     kt_over_kn: float = 1.0,
 ) -> BondedSystem:
-    """Plates held, free and driven as the shape of a specimen says.
+    """Bonds and masses of a specimen with plates held, free and driven as its shape says.
 
-    The head is a thin plate of the mobile mass; its other two translations are free. Plate bonds do not
-    yield.
-
-    Parameters
-    ----------
-    specimen : Specimen
-        Bonded spheres.
-    poisson : float
-        Of Eqs. (8)-(11), for bonds of area "paper".
-    yield_stress : float
-        On the area of a bond [Pa].
-    friction : float
-        Where the gap of a broken bond closes.
-    head : str
-        Its rotation is "free" or "blocked".
-    gravity : float
-        [m/s2].
-    kt_over_kn : float
-        Tangential over normal stiffness, for "facets".
-
-    Returns
-    -------
-    BondedSystem
-        Bonds and masses.
-
-    Raises
-    ------
-    InputError
-        For a blocked head of a test that turns the specimen at its clamps.
+    The head is a thin plate of the mobile mass; its other two translations are free, its rotation is "free" or
+    "blocked". Plate bonds do not yield. `poisson` is of Eqs. (8)-(11), for area "paper"; `kt_over_kn` is for "facets".
+    `yield_stress` acts on the area of a bond [Pa], `friction` where the gap of a broken bond closes; `gravity` in m/s2.
+    Refuses a blocked head where the test turns the specimen at its clamps.
     """
     n, geometry, network = specimen.radius.size, specimen.geometry, specimen.network
     plates = [plate for plate in geometry.plates if plate.moves]

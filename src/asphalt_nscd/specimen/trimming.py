@@ -20,22 +20,8 @@ FEWEST_BONDS = 3
 class Specimen:
     """Bonded spheres between the foot (z = 0) and the head (z = h); the origin is the middle of the foot.
 
-    Parameters
-    ----------
-    geometry : Shape
-        Of the test.
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        After the reduction of volume [m].
-    density : float
-        Matched to the mass of the geometry [kg/m3].
-    network : Network
-        Bonds.
-    loose_grains : int
-        Removed because they had fewer than three bonds or hung on no chain to the foot.
-    area : str
-        Of the bonds, one of `network.AREAS`.
+    `position` (n, 3) and `radius` (n,), after the reduction of volume, in m; `density`, matched to the mass of the
+    geometry, in kg/m3. `loose_grains` were removed for fewer than three bonds or no chain to the foot.
     """
 
     geometry: Shape
@@ -48,20 +34,7 @@ class Specimen:
 
 
 def layer_height(position: np.ndarray, radius: np.ndarray) -> float:
-    """Height of a layer on z = 0: twice the height of its centre of mass.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-
-    Returns
-    -------
-    float
-        [m].
-    """
+    """Height of a layer on z = 0 [m], twice that of its centre of mass; `position` (n, 3), `radius` (n,) in m."""
     return float(2.0 * np.average(position[:, 2], weights=radius**3))
 
 
@@ -73,34 +46,11 @@ def trim(
     reach: float,
     area: str = "paper",
 ) -> Specimen:
-    """Cut the specimen from the middle of a layer (length along x, width along y, height along z).
+    """Cut the specimen from the middle of a layer (length along x, width along y, height along z) and bond it.
 
-    Grains whose barycentre lies outside the shape are removed. The density is raised until the mass is right.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        Of the layer [m].
-    radius : ndarray (n,)
-        Of the layer [m].
-    geometry : Shape
-        Of the specimen.
-    volume_reduction : float
-        Fraction by which the volume of each sphere is reduced.
-    reach : float
-        Gap below which pairs are bonded [m], by area "paper".
-    area : str
-        "paper", or "facets": pairs that share a facet are bonded.
-
-    Returns
-    -------
-    Specimen
-        Bonded spheres.
-
-    Raises
-    ------
-    InputError
-        Where the layer is too low, no sphere is left, bodies overlap, or no chain of bonds joins the plates.
+    `position` (n, 3) and `radius` (n,) in m are of the layer. Grains whose barycentre lies outside the shape are
+    removed; each sphere's volume is reduced by the fraction `volume_reduction`; the density is raised until the mass is
+    right. Pairs with a gap below `reach` [m] are bonded by area "paper", those that share a facet by "facets".
     """
     require_joined(geometry, area)
     height = layer_height(position, radius)
@@ -147,24 +97,7 @@ def trim(
 
 
 def held(network: Network, n: int, plates: int = 2) -> tuple[np.ndarray, bool]:
-    """Which spheres are held fast by bonds.
-
-    Parameters
-    ----------
-    network : Network
-        Bonds.
-    n : int
-        Number of spheres.
-    plates : int
-        Number of plates.
-
-    Returns
-    -------
-    ndarray of bool (n,)
-        Held fast.
-    bool
-        Whether all plates hang together.
-    """
+    """Which of the `n` spheres (n,) are held fast by bonds, and whether all plates hang together."""
     ends = network.first, network.second
     count = np.bincount(np.concatenate(ends), minlength=n + plates)[:n]
     cluster = clusters(*ends, n + plates)

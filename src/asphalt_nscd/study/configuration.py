@@ -44,27 +44,7 @@ _OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
 
 
 def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -> dict[str, Any]:
-    """A study, checked and with every default filled in.
-
-    Parameters
-    ----------
-    config : mapping
-        As Snakemake read it.
-    source : str
-        Its name in messages.
-    schema : path
-        Of the configuration.
-
-    Returns
-    -------
-    dict
-        A new mapping.
-
-    Raises
-    ------
-    InputError
-        Which names the key and the mend.
-    """
+    """A new mapping of a study that is checked against `schema`, with every default filled in."""
     rules = yaml.safe_load(Path(schema).read_text(encoding="utf-8"))
     study = _numbers(copy.deepcopy(dict(config)))
     # `test: tension-compression` is short for its type.
@@ -103,16 +83,6 @@ def refuse_repeated_keys(path: str | Path) -> None:
     """Refuse a study in which a key appears twice, of which YAML silently takes the last.
 
     Anchors are refused too: a few lines of them can stand for more than any memory holds.
-
-    Parameters
-    ----------
-    path : path
-        YAML file of the study.
-
-    Raises
-    ------
-    InputError
-        For a key that appears twice or is no word, for an anchor, and for what is no YAML; with the line.
     """
 
     class Strict(yaml.SafeLoader):
@@ -144,18 +114,7 @@ def refuse_repeated_keys(path: str | Path) -> None:
 
 
 def label(value: float) -> str:
-    """Temperature or frequency as it stands in file names: 15, -10, 12.5.
-
-    Parameters
-    ----------
-    value : float
-        [degC] or [Hz].
-
-    Returns
-    -------
-    str
-        Ten digits, as in tables.
-    """
+    """Temperature [degC] or frequency [Hz] as in file names: 15, -10, 12.5; ten digits, as in tables."""
     return f"{value:.10g}"
 
 

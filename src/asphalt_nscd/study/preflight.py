@@ -24,20 +24,7 @@ KEYS = {"temperatures_C": "temperature_C", "frequencies_Hz": "frequency_Hz"}
 
 
 def require_feasible(study: Mapping[str, Any], source: str) -> None:
-    """Refuse a study that would fail later.
-
-    Parameters
-    ----------
-    study : mapping
-        Complete (`complete_study`).
-    source : str
-        Its name in messages.
-
-    Raises
-    ------
-    InputError
-        Of the step which would fail, with the key of the study.
-    """
+    """Refuse a complete study (`complete_study`) of which a step would fail later, and name the key."""
     if isinstance(study["geometry"], Mapping):
         with _at(source):
             read_geometry(study["geometry"], [])

@@ -48,31 +48,7 @@ def read_campaign(
     chosen: Mapping[str, str] | None = None,
     test_type: str | None = None,
 ) -> tuple[Campaign, str]:
-    """The campaign that files and folders hold together.
-
-    Parameters
-    ----------
-    paths : sequence of path
-        Files and folders.
-    sheet : str, optional
-        See `read_sheets`.
-    chosen : mapping of str to str, optional
-        See `understand`.
-    test_type : str, optional
-        The kind of test; None takes what the files say (`_told_kind`).
-
-    Returns
-    -------
-    Campaign
-        Tests in our columns.
-    str
-        Their form, a key of `reduction.FORMS`.
-
-    Raises
-    ------
-    InputError
-        For files of several forms, or none that holds tests.
-    """
+    """The campaign that files and folders hold together, and its form; `test_type` None takes what the files say."""
     notes: list[str] = []
     parts: list[Part] = []
     without_tests: list[str] = []

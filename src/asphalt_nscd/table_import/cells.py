@@ -33,17 +33,7 @@ class NotTests(InputError):
 
 @dataclass(frozen=True)
 class Sheet:
-    """Rows of one sheet of a workbook, or of a text file.
-
-    Parameters
-    ----------
-    name : str or None
-        None of a text file.
-    rows : list of Row
-        As text, with their line in the file.
-    notes : list of str
-        How they were read.
-    """
+    """Text rows, with their lines, of a sheet of a workbook, or of a text file (`name` None); `notes` tell how read."""
 
     name: str | None
     rows: list[Row]
@@ -52,20 +42,9 @@ class Sheet:
 
 @dataclass(frozen=True)
 class Cells:
-    """A header, and below it rows as long as it.
+    """A header, and below it rows of text as long as it, with their lines; `notes` tell how they were read.
 
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    header : list of str
-        Names of the columns.
-    rows : list of Row
-        As text, with their line in the file.
-    notes : list of str
-        How it was read.
-    at : list of dict of str, optional
-        For each column the conditions that lines above its name give it, as in `Heading.at`.
+    `at` has for each column the conditions that lines above its name give it, as in `Heading.at`.
     """
 
     path: Path
@@ -76,50 +55,12 @@ class Cells:
 
 
 def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
-    """Cells of a CSV, TSV or XLSX file below its line of names; see `read_rows`.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    sheet : str, optional
-        Of an XLSX file.
-
-    Returns
-    -------
-    Cells
-        As text.
-
-    Raises
-    ------
-    InputError
-        For what is no table.
-    """
+    """Cells of a CSV, TSV or XLSX file below its line of names; see `read_rows`."""
     return as_cells(Path(path), *read_rows(path, sheet))
 
 
 def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], list[str]]:
-    """Rows of a file with one table, and how they were read; see `read_sheets`.
-
-    Parameters
-    ----------
-    path : path
-        CSV, TSV or XLSX file.
-    sheet : str, optional
-        Name of the XLSX sheet; needed where several hold something.
-
-    Returns
-    -------
-    list of Row
-        Its rows with their numbers, without blank rows and comments.
-    list of str
-        How they were read.
-
-    Raises
-    ------
-    InputError
-        For several sheets that hold something, and whatever `read_sheets` refuses.
-    """
+    """Rows of a file with one table, and how they were read; several sheets with content need `sheet`."""
     sheets = read_sheets(path, sheet)
     if len(sheets) > 1:
         names = ", ".join(str(one.name) for one in sheets)
@@ -128,26 +69,9 @@ def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], li
 
 
 def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
-    """Each sheet of a CSV, TSV or XLSX file with its rows; blank rows and those that begin with # are left out.
+    """The sheets of a CSV, TSV or XLSX file, at least one; blank rows and those that begin with # are left out.
 
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    sheet : str, optional
-        Name of the XLSX sheet, if only one is wanted.
-
-    Returns
-    -------
-    list of Sheet
-        At least one.
-
-    Raises
-    ------
-    NotTests
-        For a file that is empty or holds no table.
-    InputError
-        For one that is missing, too large, old or encrypted.
+    Raises NotTests, not InputError, for a file that is empty or holds no table.
     """
     path = Path(path)
     if not path.is_file():
@@ -186,27 +110,7 @@ def _held(rows: list[Row]) -> list[Row]:
 
 
 def as_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
-    """A table from its rows, a title above its line of names left out.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    rows : list of Row
-        As text, with their line in the file.
-    notes : list of str
-        How they were read.
-
-    Returns
-    -------
-    Cells
-        A header and rows.
-
-    Raises
-    ------
-    InputError
-        For a row that is longer than the header.
-    """
+    """A table from its rows; a title above its line of names is left out."""
     rows, notes = list(rows), list(notes)
     while len(rows) > 2 and len(rows[0][1]) == 1 < len(rows[1][1]):
         notes.append(f"line {rows[0][0]} taken for a title: {rows[0][1][0]!r}")

@@ -21,43 +21,12 @@ _LEAST_TEMPERATURES = 3
 
 
 def as_written(name: str, column: Column) -> str:
-    """Our name of a quantity with the unit that a column has: E_GPa.
-
-    Parameters
-    ----------
-    name : str
-        Ours.
-    column : Column
-        The user's.
-
-    Returns
-    -------
-    str
-        The name.
-    """
+    """Our name of a quantity with the unit that the user's column has: E_GPa."""
     return f"{name.rpartition('_')[0]}_{column.unit}" if column.unit else name
 
 
 def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
-    """The columns that the user named with --column.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-    chosen : mapping of str to str
-        Name of the column by what it holds.
-
-    Returns
-    -------
-    dict of str to list
-        By our names.
-
-    Raises
-    ------
-    InputError
-        For a quantity or a column that is not known.
-    """
+    """The columns that the user named with --column, by our names; `chosen` has them by what they hold."""
     found: dict[str, list[Place]] = {}
     for wanted, name in chosen.items():
         column = recognise(wanted)
@@ -106,31 +75,7 @@ def _require_unit(cells: Cells, place: int, wanted: str, column: Column) -> None
 
 
 def one_of(cells: Cells, name: str, places: list[Place]) -> tuple[Place, list[str], set[int]]:
-    """The column of a quantity, of several that agree.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-    name : str
-        Of the quantity.
-    places : list of Place
-        Of the columns.
-
-    Returns
-    -------
-    tuple
-        The column.
-    list of str
-        How it was found.
-    set of int
-        Columns that hold the same.
-
-    Raises
-    ------
-    InputError
-        For columns that differ.
-    """
+    """The column of a quantity, one of several that must agree; notes on how it was found, and its copies."""
     place, notes, copies = places[0], [], set()
     if len(places) > 1:
         place = _agreeing(cells, name, places)

@@ -15,18 +15,7 @@ NEARER = 0.5  # of that, at the other temperature
 
 
 def refuse_mislabelled(parts: Sequence[Part]) -> None:
-    """Refuse an export whose moduli belong to the temperature that was not taken for it.
-
-    Parameters
-    ----------
-    parts : sequence of Part
-        Of the campaign.
-
-    Raises
-    ------
-    InputError
-        Which names both temperatures.
-    """
+    """Refuse an export whose moduli belong to the temperature that was not taken for it."""
     for part in parts:
         if not part.contested:
             continue

@@ -42,18 +42,7 @@ class _Moment:
 
 
 def later(first: str, second: str) -> bool | None:
-    """Whether the second of two dates is after the first.
-
-    Parameters
-    ----------
-    first, second : str
-        As machines and people write them.
-
-    Returns
-    -------
-    bool or None
-        None if they do not tell.
-    """
+    """Whether the second of two dates is after the first; None if they do not tell."""
     a, b = _moment(first), _moment(second)
     if a is None or b is None:
         return None

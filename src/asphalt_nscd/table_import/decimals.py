@@ -18,25 +18,7 @@ _GROUPED = re.compile(r"[-+]?\d{1,3}(?:[., '\u00a0\u202f]\d{3})+(?:[.,]\d+)?")
 
 
 def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
-    """`,` or `.`, one throughout.
-
-    Parameters
-    ----------
-    where : str
-        Names the file in a refusal.
-    numbers : iterable of tuple
-        With their lines.
-
-    Returns
-    -------
-    str
-        The mark.
-
-    Raises
-    ------
-    InputError
-        For both, or for groups of thousands.
-    """
+    """The decimal mark, `,` or `.`, which must be one throughout; groups as in `1 234` are refused."""
     # The first line of each mark, for the refusal names both.
     first: dict[str, tuple[int, str]] = {}
     for line, text in numbers:
@@ -65,21 +47,7 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
 
 
 def like_below(heading: str, cells: Iterable[str]) -> str:
-    """A number of a heading with the decimal mark of the cells below it, where one of them can mean nothing
-    else.
-
-    Parameters
-    ----------
-    heading : str
-        The number.
-    cells : iterable of str
-        Below it.
-
-    Returns
-    -------
-    str
-        The number.
-    """
+    """A number of a heading with the decimal mark of cells below it, where one of them can mean nothing else."""
     comma = any(_COMMA.fullmatch(cell) and not _GROUPED.fullmatch(cell) for cell in cells)
     return heading.replace(".", ",") if comma else heading
 
@@ -94,40 +62,14 @@ def _ungrouped(*texts: str) -> str:
 
 
 def with_point(text: str, mark: str) -> str:
-    """A number with a decimal point and without groups, `5,558.0` as `5558.0`.
-
-    Parameters
-    ----------
-    text : str
-        Of the cell.
-    mark : str
-        Decimal mark.
-
-    Returns
-    -------
-    str
-        Other text as it is.
-    """
+    """A number with a decimal point and without groups, `5,558.0` as `5558.0`; other text as it is."""
     if mark == ",":
         return text.replace(",", ".")
     return text.replace(",", "") if _ENGLISH.fullmatch(text) else text
 
 
 def number(text: str, mark: str) -> float | None:
-    """The number that a cell holds.
-
-    Parameters
-    ----------
-    text : str
-        Of the cell.
-    mark : str
-        Decimal mark.
-
-    Returns
-    -------
-    float or None
-        None if it holds none.
-    """
+    """The number that a cell holds, read with the decimal mark `mark`; None if it holds none."""
     try:
         return plain_number(with_point(text, mark))
     except ValueError:

@@ -17,28 +17,10 @@ CORES = 2
 def duration(
     spheres: int, samples: int, temperatures: int, frequencies: Sequence[float], time_step: float
 ) -> str:
-    """How long a study will take on two cores.
+    """How long a study will take on two cores, as `about 20 minutes`; `frequencies` in Hz, `time_step` in s.
 
-    Every test runs twice, as it is and extended by the diagnosis, and those of one temperature once more for
-    each changed parameter.
-
-    Parameters
-    ----------
-    spheres : int
-        Of a specimen.
-    samples : int
-        Specimens.
-    temperatures : int
-        How many.
-    frequencies : sequence of float
-        [Hz].
-    time_step : float
-        [s].
-
-    Returns
-    -------
-    str
-        `about 20 minutes`.
+    Every test runs twice, as it is and extended by the diagnosis, and those of one temperature once more for each
+    changed parameter.
     """
     # Each temperature twice: with the laws measured, and with the law that the diagnosis names.
     isotherms = 2 * temperatures + CHANGED_LAWS

@@ -19,18 +19,7 @@ TEST_TYPE, NOTES, SOURCE = "test_type", "notes", "source"  # keys of `attrs`
 
 
 def frame_of(campaign: Campaign) -> pd.DataFrame:
-    """The tests of a campaign as a data frame.
-
-    Parameters
-    ----------
-    campaign : Campaign
-        Tests.
-
-    Returns
-    -------
-    DataFrame
-        One row each; `attrs` holds the test type, the source and the notes of the import.
-    """
+    """The tests of a campaign, one row each; `attrs` holds test type, source and notes of the import."""
     columns: dict[str, Any] = {}
     for name, cells in campaign.table.columns.items():
         if name in (*TEXTS, "record"):
@@ -49,27 +38,7 @@ def frame_of(campaign: Campaign) -> pd.DataFrame:
 def campaign_of(
     frame: pd.DataFrame, chosen: Mapping[str, str] | None = None, test_type: str | None = None
 ) -> Campaign:
-    """The campaign in a data frame, whose columns are named as those of a file may be.
-
-    Parameters
-    ----------
-    frame : DataFrame
-        Tests.
-    chosen : mapping of str to str, optional
-        See `understand`.
-    test_type : str, optional
-        Else that of `attrs`, else bending.
-
-    Returns
-    -------
-    Campaign
-        Tests in our columns.
-
-    Raises
-    ------
-    InputError
-        For no rows, or columns that are not understood.
-    """
+    """The campaign in a data frame whose columns are named as a file's; the test type is else of `attrs` or bending."""
     header = [str(name) for name in frame.columns]
     texts = [[_text(value) for value in frame[name]] for name in frame.columns]
     rows = [(line, list(cells)) for line, cells in enumerate(zip(*texts, strict=True), start=1)]

@@ -14,28 +14,9 @@ LEAST_FREQUENCY_STEP = 0.02  # relative
 
 
 def grid(frame: pd.DataFrame, path: Path) -> tuple[list[float], list[float], list[str]]:
-    """The largest full grid of temperatures and frequencies.
+    """Temperatures [degC] and frequencies [Hz] of the largest full grid, and notes on the tests outside it.
 
-    Parameters
-    ----------
-    frame : DataFrame
-        Tests.
-    path : path
-        Of the table, for messages.
-
-    Returns
-    -------
-    list of float
-        Temperatures [degC].
-    list of float
-        Frequencies [Hz].
-    list of str
-        Tests outside it, as a note.
-
-    Raises
-    ------
-    InputError
-        For one frequency alone.
+    Its frequencies are those of one temperature or those that all have; larger grids of others are not sought.
     """
     temperatures, frequencies = (np.unique(frame[name]) for name in ("temperature_C", "frequency_Hz"))
     _require_apart(temperatures, np.diff(temperatures) < LEAST_TEMPERATURE_STEP, "temperatures", "degC", path)

@@ -43,22 +43,7 @@ class _Stack:
 
 
 def tabulated(path: Path, rows: list[Row], notes: list[str]) -> Cells:
-    """The table in rows of a sheet, its names of columns one line even where the user's are several.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    rows : list of Row
-        As text, with their line in the file.
-    notes : list of str
-        How they were read.
-
-    Returns
-    -------
-    Cells
-        A header and rows.
-    """
+    """The table in rows of a sheet; names of columns over several lines become one line."""
     notes = list(notes)
     stack = _stack(rows)
     if stack is None:
@@ -83,22 +68,7 @@ def tabulated(path: Path, rows: list[Row], notes: list[str]) -> Cells:
 
 
 def with_constants(cells: Cells, told: dict[str, str], whence: str) -> Cells:
-    """The table with a column for each thing that is said of all its tests, and that no column gives.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-    told : dict of str to str
-        What is said, by our names.
-    whence : str
-        It is said, for a note.
-
-    Returns
-    -------
-    Cells
-        Wider.
-    """
+    """The table with a column for each thing in `told` (by our names) that no column gives; `whence` is for a note."""
     from asphalt_nscd.table_import.melt import held
 
     has = held(cells)
@@ -118,20 +88,7 @@ def with_constants(cells: Cells, told: dict[str, str], whence: str) -> Cells:
 
 
 def told_above(rows: Sequence[Row]) -> tuple[dict[str, str], set[int]]:
-    """What lines above a table say of all tests in it, `Specimen | Core 1`, `T = 4 °C`.
-
-    Parameters
-    ----------
-    rows : sequence of Row
-        Above the names of the columns.
-
-    Returns
-    -------
-    dict of str to str
-        By our names.
-    set of int
-        Which lines say it.
-    """
+    """What lines above a table say of all its tests, `T = 4 °C`, by our names, and which lines say it."""
     told: dict[str, str] = {}
     used: set[int] = set()
     for n, (_, cells) in enumerate(rows):
@@ -157,18 +114,7 @@ def told_above(rows: Sequence[Row]) -> tuple[dict[str, str], set[int]]:
 
 
 def sections(rows: list[Row]) -> list[list[Row]]:
-    """Rows of a sheet, parted where names of columns come again below lines that say of what.
-
-    Parameters
-    ----------
-    rows : list of Row
-        As text, with their line in the file.
-
-    Returns
-    -------
-    list of list of Row
-        At least one part.
-    """
+    """Rows of a sheet, parted where names of columns come again below lines that say of what."""
     starts = [0]
     named = [n for n, (_, cells) in enumerate(rows) if _names(cells)]
     for n in named[1:]:
@@ -183,21 +129,7 @@ def sections(rows: list[Row]) -> list[list[Row]]:
 
 
 def require_rows(path: Path, rows: list[Row]) -> None:
-    """Refuse a table with a column for each test; a machine's export has such columns, but one temperature in
-    all.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    rows : list of Row
-        As text, with their line in the file.
-
-    Raises
-    ------
-    InputError
-        Which says to turn the table.
-    """
+    """Refuse a table with a column for each test, except a machine's export, which has one temperature in all."""
     cells_of = {
         column.quantity: cells[1:] for _, cells in rows if (column := known(without_condition(cells[0])))
     }
@@ -341,23 +273,7 @@ def _filled(names: list[str], size: int) -> list[str]:
 
 
 def with_units(cells: Cells) -> Cells:
-    """Units in a line of their own below the names, or behind the numbers of a column, are put behind the names.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-
-    Returns
-    -------
-    Cells
-        With other names.
-
-    Raises
-    ------
-    NotTests
-        For no line below the names.
-    """
+    """Put units from a line below the names, or behind a column's numbers, behind the names of the columns."""
     if not cells.rows:
         raise NotTests(f"{cells.path}: no line below the names of columns; add a line for each test.")
     return _with_units_of_cells(_with_line_of_units(cells))

@@ -51,14 +51,7 @@ _UNIT_AT_END = re.compile(r"(?P<stem>.*?)\s*(?P<unit>[(\[{][^()\[\]{}]*[)\]}])\s
 class Heading:
     """A heading without its conditions, `|E*| (MPa)`, and these.
 
-    Parameters
-    ----------
-    name : str
-        Without conditions.
-    at : mapping of str to str
-        Conditions, by the column that each becomes.
-    left_out : bool
-        It stands above deviations of other columns.
+    `at` has the conditions by the column that each becomes; `left_out` marks a heading of deviations of other columns.
     """
 
     name: str
@@ -80,18 +73,7 @@ class Heading:
 # Each cell of a file is asked several times.
 @lru_cache(maxsize=2**14)
 def known(name: str) -> Column | None:
-    """The column that a name stands for.
-
-    Parameters
-    ----------
-    name : str
-        Of a column.
-
-    Returns
-    -------
-    Column or None
-        None also where it has a unit of another quantity.
-    """
+    """The column that a name stands for; None also where it has a unit of another quantity."""
     try:
         return recognise(name) if name else None
     except InputError:  # `understand` refuses it
@@ -99,18 +81,7 @@ def known(name: str) -> Column | None:
 
 
 def read_heading(text: str) -> Heading:
-    """The heading of one cell.
-
-    Parameters
-    ----------
-    text : str
-        Of the cell.
-
-    Returns
-    -------
-    Heading
-        Name and conditions.
-    """
+    """Name and conditions in the text of one heading cell."""
     # A name known as it stands holds no condition: `E2` is the loss modulus, and no second specimen.
     if len(text) > LONGEST_NAME or known(text) is not None:
         return Heading(text)
@@ -136,35 +107,13 @@ def read_heading(text: str) -> Heading:
 
 
 def condition(text: str) -> dict[str, str]:
-    """What a cell says that holds nothing but conditions, `T = 4 °C`, `10 Hz`, `Spec. 1`.
-
-    Parameters
-    ----------
-    text : str
-        Of the cell.
-
-    Returns
-    -------
-    dict of str to str
-        By the column that each becomes; else empty.
-    """
+    """Conditions of a cell that holds nothing else, `T = 4 °C`, by the column that each becomes; else empty."""
     at: dict[str, str] = {}
     return at if len(text) <= LONGEST_NAME and not _tidy(_taken(text, at)) else {}
 
 
 def without_condition(name: str) -> str:
-    """Name of a column without what it is for.
-
-    Parameters
-    ----------
-    name : str
-        Of the column.
-
-    Returns
-    -------
-    str
-        The rest.
-    """
+    """Name of a column without the conditions that its heading carries."""
     return read_heading(name).name
 
 
@@ -190,16 +139,5 @@ def _tidy(text: str) -> str:
 
 
 def is_spread(label: str) -> bool:
-    """Whether what stands in place of a specimen says that a column holds deviations of others.
-
-    Parameters
-    ----------
-    label : str
-        That stands there.
-
-    Returns
-    -------
-    bool
-        True then.
-    """
+    """Whether the label in place of a specimen says that a column holds deviations of others."""
     return bool(_SPREAD.match(label))

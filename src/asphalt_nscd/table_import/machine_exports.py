@@ -45,19 +45,9 @@ _DATE = (
 class Block:
     """The tests of one specimen at one temperature, as a table with one row for each test.
 
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-    repeated : bool
-        The operator marked the file or the specimen as a repetition.
-    tested : str
-        When, as the header has it.
-    contested : str
-        The temperature [degC] that its name or its header says beside the one taken.
-    unnamed : bool
-        No header names the specimen, and the name of the file says no temperature, so that it may be that of
-        a test.
+    `repeated`: the operator marked it as a repetition. `tested`: date, as the header has it. `contested`: the
+    temperature [degC] that its name or header says beside the one taken. `unnamed`: no header names the specimen, and
+    the file's name says no temperature, so that it may be that of a test.
     """
 
     cells: Cells
@@ -94,29 +84,7 @@ class _Header:
 
 
 def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[Block]:
-    """The blocks of results in the rows of a machine's export.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    rows : list of Row
-        As text, with their line in the file.
-    notes : list of str
-        How they were read.
-    called : str
-        Name of the file or the sheet, which stands for that of the specimen if the header has none.
-
-    Returns
-    -------
-    list of Block
-        None if the file is no such export.
-
-    Raises
-    ------
-    InputError
-        For an export that is damaged.
-    """
+    """Blocks of results in a machine's export, empty if it is none; `called` is the specimen if no header names it."""
     header, found, at = _Header(), [], 0
     several = sum(bool(_frequencies(cells)) or _names_columns(cells) for _, cells in rows) > 1
     while at < len(rows):

@@ -43,27 +43,7 @@ class _Axis:
 
 
 def matrix_cells(path: Path, sheets: Sequence[Sheet], notes: list[str]) -> Cells | None:
-    """The tests of all matrices in a file, one row for each.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    sheets : sequence of Sheet
-        Its rows.
-    notes : list of str
-        How they were read.
-
-    Returns
-    -------
-    Cells or None
-        None if it holds no matrix.
-
-    Raises
-    ------
-    InputError
-        For matrices of several units, or that contradict each other.
-    """
+    """The tests of all matrices in a file, one row for each; None if it holds no matrix."""
     values: list[_Value] = []
     headings: dict[str, str] = {}
     axes: set[tuple[str, str]] = set()

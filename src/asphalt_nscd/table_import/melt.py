@@ -24,18 +24,7 @@ _PLURALS = {CELSIUS: "temperatures", FAHRENHEIT: "temperatures", HERTZ: "frequen
 
 
 def headings_of(cells: Cells) -> list[Heading]:
-    """The headings of a table, with what its lines above them say.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-
-    Returns
-    -------
-    list of Heading
-        One for each column.
-    """
+    """The headings of a table, one for each column, with what the lines above them say."""
     read = _replicates([read_heading(name) for name in cells.header])
     return [
         replace(one, at={**one.at, **at}) if one.is_result else one
@@ -56,18 +45,7 @@ def _replicates(headings: list[Heading]) -> list[Heading]:
 
 
 def held(cells: Cells) -> set[str]:
-    """Quantities that the columns and their headings give.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-
-    Returns
-    -------
-    set of str
-        Our names.
-    """
+    """Quantities, by our names, that the columns and their headings give."""
     found = set()
     for heading in headings_of(cells):
         told = [name for name, text in heading.at.items() if text != MEAN]
@@ -76,35 +54,13 @@ def held(cells: Cells) -> set[str]:
 
 
 def holds_means(cells: Cells) -> bool:
-    """Whether all results of a table are means.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-
-    Returns
-    -------
-    bool
-        False without results.
-    """
+    """Whether all results of a table are means; False without results."""
     results = [one for one in headings_of(cells) if one.is_result]
     return bool(results) and all(one.at.get(SPECIMEN) == MEAN for one in results)
 
 
 def melted(cells: Cells) -> Cells:
-    """One row for each test, where headings hold conditions.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-
-    Returns
-    -------
-    Cells
-        Other tables as they are.
-    """
+    """One row for each test, where headings hold conditions; other tables as they are."""
     headings, notes = headings_of(cells), list(cells.notes)
     means = [n for n, one in enumerate(headings) if one.at.get(SPECIMEN) == MEAN]
     others = [one for one in headings if one.is_result and one.at.get(SPECIMEN) != MEAN]

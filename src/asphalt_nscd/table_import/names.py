@@ -19,20 +19,10 @@ _SAME = 1.0  # K between a temperature in a name and the target it means
 
 @dataclass(frozen=True)
 class Name:
-    """What an operator typed for one test.
+    """What an operator typed for one test: the specimen's own name and what else stood in it.
 
-    Parameters
-    ----------
-    specimen : str
-        Its own name.
-    temperature : str or None
-        That stood in its name [degC], as text.
-    repeated : bool
-        The operator remarked that.
-    contradicts : bool
-        The name gives another temperature than the header.
-    hyphened : bool
-        A single hyphen stands before the temperature, which may be a minus.
+    `temperature` [degC] is text. `repeated`: a remark says so. `contradicts`: the header has another temperature.
+    `hyphened`: a single hyphen stands before the temperature, which may be a minus.
     """
 
     specimen: str
@@ -43,20 +33,7 @@ class Name:
 
 
 def specimen_of(text: str, target: float | None) -> Name:
-    """Name of the specimen, without temperature, remarks and the bracket at the end.
-
-    Parameters
-    ----------
-    text : str
-        That was typed.
-    target : float or None
-        Temperature of the test as the header has it [degC]; None if it has none.
-
-    Returns
-    -------
-    Name
-        And what else it says.
-    """
+    """Name of the specimen without temperature and remarks, and what they say; `target` [degC] is of the header."""
     plain = re.sub(r"\s*[(\[][^)\]]*[)\]]\s*$", "", text).strip()
     found = list(_TEMPERATURE.finditer(plain))
     # The one that the header names, else the last: `PG64-22C` may stand before it.
@@ -80,50 +57,17 @@ def _is(match: re.Match[str], target: float) -> bool:
 
 
 def of_file(stem: str) -> str:
-    """What an export's file is called, without the machine's mark of a summary.
-
-    Parameters
-    ----------
-    stem : str
-        Of its name.
-
-    Returns
-    -------
-    str
-        The rest.
-    """
+    """What an export's file is called, without the machine's mark of a summary."""
     return re.sub(r"[_\s-]*Sum(mary)?$", "", stem, flags=re.IGNORECASE)
 
 
 def one_of_another(first: str, second: str) -> bool:
-    """Whether two names are of two specimens of one series: `Mix-B` and `Mix-C`, `K10` and `K11`.
-
-    Parameters
-    ----------
-    first, second : str
-        The names.
-
-    Returns
-    -------
-    bool
-        True then.
-    """
+    """Whether two names are of two specimens of one series: `Mix-B` and `Mix-C`, `K10` and `K11`."""
     return spelling(first) != spelling(second) and _series(first) == _series(second)
 
 
 def spelling(name: str) -> str:
-    """A name without what people write now one way and now another: capitals, blanks, hyphens.
-
-    Parameters
-    ----------
-    name : str
-        Any.
-
-    Returns
-    -------
-    str
-        To compare.
-    """
+    """A name to compare, without what people vary: capitals, blanks, hyphens."""
     return re.sub(r"[\W_]+", "-", name.casefold())
 
 
@@ -136,19 +80,6 @@ def _degrees(match: re.Match[str]) -> float:
 
 
 def celsius(text: str, unit: str) -> float:
-    """A temperature in degC.
-
-    Parameters
-    ----------
-    text : str
-        The number.
-    unit : str
-        "C", "F" or "K".
-
-    Returns
-    -------
-    float
-        [degC].
-    """
+    """A temperature in degC, from text in the unit "C", "F" or "K"."""
     value = float(text.replace(",", "."))
     return {"C": value, "F": celsius_of_fahrenheit(value), "K": value - 273.15}[unit]

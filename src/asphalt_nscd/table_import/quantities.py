@@ -141,14 +141,7 @@ _UNITS = {name for _, units in (MEASURED | SIEVES).values() for name in units}
 class Column:
     """What a column holds: number * factor + offset in our unit.
 
-    Parameters
-    ----------
-    quantity : str
-        The column of our tables.
-    unit : str or None
-        As the header says it; empty for text, None where the header says none.
-    factor, offset : float
-        To our unit.
+    `quantity` is our column; `unit` is as the header says it: empty for text, None where the header says none.
     """
 
     quantity: str
@@ -158,25 +151,7 @@ class Column:
 
 
 def recognise(header: str, known: dict = MEASURED) -> Column | None:
-    """The column that a name stands for.
-
-    Parameters
-    ----------
-    header : str
-        The name.
-    known : dict
-        Quantities.
-
-    Returns
-    -------
-    Column or None
-        None if it is none of those known.
-
-    Raises
-    ------
-    InputError
-        For another quantity's unit.
-    """
+    """The column that a name stands for; None if it is none of those known. Refuses another quantity's unit."""
     if len(header) > LONGEST_NAME:
         return None
     if header in known:  # one of ours
@@ -205,18 +180,7 @@ def recognise(header: str, known: dict = MEASURED) -> Column | None:
 
 
 def derived(header: str) -> str:
-    """What a column holds in place of a measured quantity.
-
-    Parameters
-    ----------
-    header : str
-        Its name.
-
-    Returns
-    -------
-    str
-        "logarithm", "reduced" to one temperature; else empty.
-    """
+    """What a column holds in place of a measured quantity: "logarithm", "reduced" to one temperature, else empty."""
     if re.match(r"\W*(?:log|lg|ln)(?:10)?(?![a-z])", header, re.IGNORECASE):
         return "logarithm"
     return (
@@ -225,18 +189,7 @@ def derived(header: str) -> str:
 
 
 def spellings(known: dict = MEASURED) -> str:
-    """A line for each column: its name, those that people give it, and the units understood.
-
-    Parameters
-    ----------
-    known : dict
-        Quantities.
-
-    Returns
-    -------
-    str
-        Lines.
-    """
+    """A line for each column: its name, those that people give it, and the units understood."""
     return "\n".join(
         f"{quantity}: {', '.join(names.split() or [quantity])}" + (f" [{', '.join(units)}]" if units else "")
         for quantity, (names, units) in known.items()
@@ -244,34 +197,12 @@ def spellings(known: dict = MEASURED) -> str:
 
 
 def unit_in(header: str) -> str | None:
-    """The unit that a name carries, whatever it names.
-
-    Parameters
-    ----------
-    header : str
-        The name.
-
-    Returns
-    -------
-    str or None
-        None if it carries none that is known.
-    """
+    """The unit that a name carries, whatever it names; None if none that is known."""
     return next((unit for _, unit in _splits(header) if unit and unit in _UNITS), None)
 
 
 def is_unit(cell: str) -> bool:
-    """Whether a cell holds nothing but a unit, as in a second line below the names.
-
-    Parameters
-    ----------
-    cell : str
-        Its text.
-
-    Returns
-    -------
-    bool
-        True then.
-    """
+    """Whether a cell holds nothing but a unit, as in a second line below the names."""
     return _spelled(cell.strip("()[]{} ")) in _UNITS
 
 

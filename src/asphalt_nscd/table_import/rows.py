@@ -34,27 +34,7 @@ _NAMES, _REMARK, _MEAN, _NOT_MEASURED = (
 
 
 def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -> Cells:
-    """The rows that are tests; what merged cells hold is written into each row.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-    places : mapping of str to int
-        Columns by what they hold.
-    measured : sequence of str
-        Which of these are the results of a test.
-
-    Returns
-    -------
-    Cells
-        The notes say what was left out.
-
-    Raises
-    ------
-    InputError
-        For no line with numbers.
-    """
+    """The rows that are tests, with what merged cells hold written into each; notes say what was left out."""
     keys = [places[name] for name in ("temperature_C", "frequency_Hz")]
     results = [places[name] for name in measured]
     labels = [places[name] for name in ("specimen", "replicate") if name in places]

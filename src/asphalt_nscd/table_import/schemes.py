@@ -19,18 +19,7 @@ _SCHEMES = {
 
 
 def schemes_in(path: Path) -> set[str]:
-    """Kinds of test that the first lines of a file name.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-
-    Returns
-    -------
-    set of str
-        Of `kinds.TEST_TYPES`.
-    """
+    """Kinds of test, of `kinds.TEST_TYPES`, that the first lines of a file name."""
     try:
         sheets = read_sheets(path)
     # Why it cannot be read is said where it is read.

@@ -22,25 +22,7 @@ _LEAST = 2  # frequencies for that: of one, the retest may be the mend
 
 @dataclass(frozen=True)
 class Part:
-    """Tests of one file or sheet, or of one block of an export.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    read : ParsedTable
-        The tests.
-    exported : bool
-        By a machine.
-    repeated : bool
-        Whether it was marked as a repetition.
-    tested : str
-        When, as the header has it.
-    contested, unnamed : str
-        See `Block`.
-    means : bool
-        Its results are means.
-    """
+    """Tests of one file or sheet, or of one block of an export; for `contested` and `unnamed` see `Block`."""
 
     path: Path
     read: ParsedTable
@@ -65,20 +47,7 @@ class Part:
 
 
 def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
-    """Parts without those whose every test another file holds already, whatever it calls the specimens.
-
-    Parameters
-    ----------
-    parts : list of Part
-        Of the campaign.
-    notes : list of str
-        Are added to.
-
-    Returns
-    -------
-    list of Part
-        Those kept.
-    """
+    """Parts without those whose every test another file holds under any specimen name; appends to `notes`."""
     kept: list[Part] = []
     for part in parts:
         # Blocks of one file may hold equal numbers; only another file or sheet is a copy.
@@ -108,20 +77,7 @@ def _saved_twice(part: Part, holders: list[Part]) -> str:
 
 
 def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
-    """Parts in which exports that spell one specimen differently, `Mix-A` and `mix a`, give it one name.
-
-    Parameters
-    ----------
-    parts : list of Part
-        Of the campaign.
-    notes : list of str
-        Are added to.
-
-    Returns
-    -------
-    list of Part
-        All.
-    """
+    """Parts with one name for a specimen that exports spell differently, `Mix-A`, `mix a`; appends to `notes`."""
     first: dict[str, str] = {}
     others: dict[str, list[str]] = {}
     kept = []
@@ -139,21 +95,7 @@ def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
 
 
 def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
-    """Parts in which no two files or sheets give one test: that of the later date, or marked as repeated, is
-    kept.
-
-    Parameters
-    ----------
-    parts : list of Part
-        Of the campaign.
-    notes : list of str
-        Are added to.
-
-    Returns
-    -------
-    list of Part
-        Those kept.
-    """
+    """Parts without a test given twice: that of the later date, or marked as repeated, is kept; appends to `notes`."""
     # First of all: a file three times softer replaced the right one, because its date was later.
     _require_specimens_of_names(parts)
     _require_alike(parts)

@@ -21,40 +21,12 @@ OF_OTHERS = re.compile(
 
 
 def of_other_sheets(name: str, cells: Cells) -> bool:
-    """Whether a sheet holds what was computed of others: its name says so, and no column names specimens.
-
-    Parameters
-    ----------
-    name : str
-        Of the sheet.
-    cells : Cells
-        Its table.
-
-    Returns
-    -------
-    bool
-        True then.
-    """
+    """Whether a sheet was computed from others: its name says so, and no column names specimens."""
     return bool(OF_OTHERS.match(name)) and "specimen" not in held(cells)
 
 
 def told_by_sheet(cells: Cells, name: str, chosen: Mapping[str, str]) -> Cells:
-    """The table with columns for specimen and temperature from the name of its sheet, if it has none.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-    name : str
-        Of the sheet.
-    chosen : mapping of str to str
-        Columns that the user named.
-
-    Returns
-    -------
-    Cells
-        Wider, or as it is.
-    """
+    """The table with columns for specimen and temperature from the name of its sheet, if it has none."""
     has = held(cells) | {column.quantity for wanted in chosen if (column := recognise(wanted))}
     bare, known = _TEMPERATURE.fullmatch(name), specimen_of(name, None)
     temperature = bare[1] if bare else known.temperature

@@ -13,17 +13,7 @@ MOST_NAMES = 3
 
 @dataclass(frozen=True)
 class SkippedFile:
-    """A file or a sheet that is passed over.
-
-    Parameters
-    ----------
-    name : str
-        Of the file.
-    reason : str
-        Why.
-    mend : str
-        How to mend that.
-    """
+    """A file or a sheet that is passed over, with the reason and how to mend that."""
 
     name: str
     reason: str
@@ -31,22 +21,7 @@ class SkippedFile:
 
 
 def refused(name: str, error: InputError, path: Path) -> SkippedFile:
-    """A file that was refused.
-
-    Parameters
-    ----------
-    name : str
-        Of the file.
-    error : InputError
-        Which refused it.
-    path : path
-        As the error names it.
-
-    Returns
-    -------
-    SkippedFile
-        With reason and mend.
-    """
+    """A file that `error` refused, with reason and mend; `path` is as the error names it."""
     said = str(error).removeprefix(f"{path}: ").removeprefix(f"{path}, ")
     reason, _, mend = said.partition("; ")
     # The names found differ between files; without them one reason is said once, for nine files of a folder.
@@ -54,18 +29,7 @@ def refused(name: str, error: InputError, path: Path) -> SkippedFile:
 
 
 def listed(files: Sequence[SkippedFile]) -> str:
-    """`a.csv, b.csv, c.csv and 9 more (the file is empty); d.pdf (neither CSV, ...)`.
-
-    Parameters
-    ----------
-    files : sequence of SkippedFile
-        Passed over.
-
-    Returns
-    -------
-    str
-        By reason.
-    """
+    """The files by reason: `a.csv, b.csv, c.csv and 9 more (the file is empty); d.pdf (neither CSV, ...)`."""
     by_reason: dict[str, list[str]] = {}
     for one in files:
         by_reason.setdefault(one.reason, []).append(one.name)
@@ -77,16 +41,5 @@ def listed(files: Sequence[SkippedFile]) -> str:
 
 
 def common_mend(files: Sequence[SkippedFile]) -> str:
-    """What mends all of them, if they have one reason.
-
-    Parameters
-    ----------
-    files : sequence of SkippedFile
-        Passed over.
-
-    Returns
-    -------
-    str
-        Else empty.
-    """
+    """What mends all files, if they have one reason; else empty."""
     return files[0].mend if len({one.reason for one in files}) == 1 else ""

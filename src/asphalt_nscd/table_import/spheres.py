@@ -30,14 +30,8 @@ MOST_SPHERES = 200_000
 class Spheres:
     """The spheres of a study and their box.
 
-    Parameters
-    ----------
-    counts : Series
-        Number by diameter [mm].
-    box : tuple of float
-        Length, width, height [m] that holds them and the specimen.
-    smallest_mm : float
-        What is finer belongs to the mastic [mm].
+    `counts` has the number by diameter [mm]; `box` is length, width, height [m] and holds them and the specimen. What
+    is finer than `smallest_mm` belongs to the mastic.
     """
 
     counts: pd.Series
@@ -46,25 +40,9 @@ class Spheres:
 
 
 def spheres_for(shape: Shape, grading: pd.Series | None = None) -> Spheres:
-    """Spheres of the paper's volume per volume of specimen, of its sizes, in a cylinder twice as large, or of a
-    sieve curve.
+    """Spheres of the paper's volume per volume of specimen, of its sizes or of a sieve curve, and their box.
 
-    Parameters
-    ----------
-    shape : Shape
-        Geometry of the specimen.
-    grading : Series, optional
-        Per cent passing by sieve [mm].
-
-    Returns
-    -------
-    Spheres
-        And their box.
-
-    Raises
-    ------
-    InputError
-        For more spheres than MOST_SPHERES.
+    In a cylinder the paper's sizes are twice as large. `grading` is per cent passing by sieve [mm].
     """
     coarser = COARSER if isinstance(shape, Cylinder) else 1.0
     room, smallest = _block(shape) / _block(PAPER), SMALLEST_MM * coarser
@@ -109,25 +87,7 @@ def _box(geometry: Shape, counts: pd.Series) -> tuple[float, float, float]:
 
 
 def read_grading(path: str | Path, sheet: str | None = None) -> pd.Series:
-    """Read a sieve curve, from a table of any kind that `read_cells` reads.
-
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    sheet : str, optional
-        Of an XLSX file.
-
-    Returns
-    -------
-    Series
-        Per cent passing by sieve [mm].
-
-    Raises
-    ------
-    InputError
-        Which names column or line and the mend.
-    """
+    """Read a sieve curve, per cent passing by sieve [mm], from any table that `read_cells` reads."""
     cells = read_cells(path, sheet)
     places = {}
     for place, name in enumerate(cells.header):

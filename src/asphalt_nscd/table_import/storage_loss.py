@@ -25,18 +25,7 @@ _SAID = {
 
 
 def with_whole_modulus(values: dict[str, list[str]]) -> list[str]:
-    """Put |E*| [MPa] and phase [deg] in place of what stands for them, as text.
-
-    Parameters
-    ----------
-    values : dict of str to list of str
-        Columns by our names; is changed.
-
-    Returns
-    -------
-    list of str
-        A note where anything did.
-    """
+    """Put |E*| [MPa] and phase [deg] into `values` for what stands for them; returns a note if anything did."""
     parts = [name for name in ("E1_MPa", "E2_MPa", "tan_delta") if name in values]
     if not parts:
         return []

@@ -23,17 +23,7 @@ _NUMBER = re.compile(r"[-−]?\d+(?:[.,]\d+)?")
 
 @dataclass(frozen=True)
 class Header:
-    """The target in the header of an export.
-
-    Parameters
-    ----------
-    text : str
-        As it stands there.
-    unit : str
-        "C", "F" or "K".
-    column : str
-        Name of a column for it.
-    """
+    """The target temperature in the header of an export, in `unit` "C", "F" or "K"."""
 
     text: str
     unit: str
@@ -47,17 +37,7 @@ class Header:
 
 @dataclass(frozen=True)
 class Target:
-    """The target taken.
-
-    Parameters
-    ----------
-    text : str
-        The temperature.
-    column : str
-        Its name.
-    contested : str
-        What a name or the header says beside it [degC].
-    """
+    """The target temperature taken; `contested` is what a name or the header says beside it [degC]."""
 
     text: str
     column: str
@@ -65,22 +45,7 @@ class Target:
 
 
 def median_reading(rows: Sequence[Row], place: int | None, unit: str | None) -> float | None:
-    """The middle one of the temperatures measured.
-
-    Parameters
-    ----------
-    rows : sequence of Row
-        As text, with their line in the file.
-    place : int or None
-        Of the column.
-    unit : str or None
-        Of the column.
-
-    Returns
-    -------
-    float or None
-        [degC]; None if a cell is no number, or no unit is known.
-    """
+    """The median temperature measured [degC]; None if a cell is no number, or no unit is known."""
     unit = (unit or "")[-1:]
     if place is None or unit not in ("C", "F", "K"):
         return None
@@ -95,30 +60,10 @@ def median_reading(rows: Sequence[Row], place: int | None, unit: str | None) -> 
 def decided(
     path: Path, header: Header | None, names: Sequence[str], measured: float | None, notes: list[str]
 ) -> Target | None:
-    """The target of an export. A name or a header that is far from the readings gives way to the other.
+    """The target of an export; a name or a header that is far from the readings gives way to the other.
 
-    Parameters
-    ----------
-    path : path
-        Of the file.
-    header : Header or None
-        Its target.
-    names : sequence of str
-        Texts that may say a temperature.
-    measured : float or None
-        The middle reading [degC].
-    notes : list of str
-        Are added to.
-
-    Returns
-    -------
-    Target or None
-        None if there is neither a target nor a name that must stand for one.
-
-    Raises
-    ------
-    InputError
-        For two that are far apart, and no readings that decide.
+    `measured` is the middle reading [degC]; appends to `notes`. None if there is neither a target nor a name that must
+    stand for one. Refused where no reading decides between two that are far apart, or the reading fits neither.
     """
     if header is None:
         return _without_header(path, names, measured, notes)

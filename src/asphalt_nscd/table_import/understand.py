@@ -42,22 +42,10 @@ _ANGLES = (
 
 @dataclass(frozen=True)
 class ParsedTable:
-    """A table in our columns and units.
+    """A table in our columns and units, and how it was read.
 
-    Parameters
-    ----------
-    table : Table
-        The tests.
-    form : str
-        A key of FORMS.
-    notes : list of str
-        How it was read.
-    sources : dict of str to str
-        For each of our columns the user's, and the unit it was converted from.
-    mix : str
-        Its name, if a column says it.
-    modulus_unit : str
-        What |E*| was converted from, empty if it was in MPa.
+    `form` is a key of FORMS. `sources` has, for each of our columns, the user's and the unit it was converted from;
+    `modulus_unit` is what |E*| was converted from, empty if it was in MPa.
     """
 
     table: Table
@@ -69,25 +57,7 @@ class ParsedTable:
 
 
 def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedTable:
-    """Tests of a user's table.
-
-    Parameters
-    ----------
-    cells : Cells
-        The table.
-    chosen : mapping of str to str, optional
-        Names of columns by what they hold, `{"E_GPa": "Steifigkeit"}`, where a name does not tell.
-
-    Returns
-    -------
-    ParsedTable
-        In our columns and units.
-
-    Raises
-    ------
-    InputError
-        For what is ambiguous; it names the column and the mend.
-    """
+    """Tests of a user's table; `chosen` names columns by what they hold, `{"E_GPa": "Steifigkeit"}`."""
     if not chosen and (ours := _own(cells)):
         return ours
     cells = melted(with_units(cells))
@@ -182,18 +152,7 @@ def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
 
 
 def names_force_or_modulus(cell: str) -> bool:
-    """Whether a cell is the name of a column with moduli or forces and says their unit, also of a wide table.
-
-    Parameters
-    ----------
-    cell : str
-        Its text.
-
-    Returns
-    -------
-    bool
-        True then.
-    """
+    """Whether a cell names a column of moduli or forces and says the unit, also in a wide table."""
     try:
         column = recognise(read_heading(cell).name)
     except InputError:  # a unit that the quantity does not have

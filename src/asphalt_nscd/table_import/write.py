@@ -47,23 +47,7 @@ SMALL_SPHERES = Spheres(pd.Series({2.0: 600, 3.0: 200, 4.0: 90}), (0.06, 0.01, 0
 
 @dataclass(frozen=True)
 class StudyOptions:
-    """What the user says beside the table; None where nothing.
-
-    Parameters
-    ----------
-    geometry : mapping or path, optional
-        Of the specimen.
-    grading : path, optional
-        File of a sieve curve.
-    measured_in : str, optional
-        Test that gave the moduli, one of TEST_TYPES.
-    small : bool
-        Few spheres.
-    sheet : str, optional
-        Of an XLSX file.
-    columns : mapping of str to str, optional
-        See `understand`.
-    """
+    """What the user says beside the table, None where nothing; `measured_in` is one of TEST_TYPES."""
 
     geometry: Mapping[str, float] | Path | None = None
     grading: Path | None = None
@@ -76,28 +60,8 @@ class StudyOptions:
 def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) -> tuple[Path, list[str]]:
     """Write config/NAME.yaml, and below data/NAME/ the table in our columns and the spheres.
 
-    Nothing is replaced, and what was written is taken away again where the study would be refused.
-
-    Parameters
-    ----------
-    name : str
-        Of the study.
-    measurements : sequence of path
-        Files and folders.
-    options : StudyOptions
-        What the user says beside them.
-
-    Returns
-    -------
-    Path
-        The configuration.
-    list of str
-        What was understood.
-
-    Raises
-    ------
-    InputError
-        For a study that would fail later.
+    Returns the configuration and what was understood. Nothing is replaced, and what was written is taken away again
+    where the study would be refused.
     """
     config, folder = Path("config", f"{name}.yaml"), Path("data", name)
     _require_free(name, config, folder)
@@ -186,28 +150,10 @@ def _require_free(name: str, config: Path, folder: Path) -> None:
 
 
 def for_study(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
-    """The columns of a campaign that a study takes, with the temperature of the isotherm, and notes on them.
+    """The columns of a campaign that a study takes, with the temperature of the isotherm, and notes on changes.
 
-    A study fits one Burgers law for each isotherm, so that all tests of one must have the same temperature.
-
-    Parameters
-    ----------
-    campaign : Campaign
-        Tests as they were read, with notes.
-    form : str
-        Of the columns, a key of `FORMS`; "records" must be reduced first.
-
-    Returns
-    -------
-    Table
-        The columns that a study takes, as text; a replicate of a specimen becomes a specimen of its own.
-    list of str
-        Notes on what was changed.
-
-    Raises
-    ------
-    InputError
-        For records, and for a temperature out of its range.
+    A study fits one Burgers law for each isotherm, so that all tests of one must have the same temperature. A replicate
+    of a specimen becomes a specimen of its own. `form` is a key of `FORMS`; "records" must be reduced first.
     """
     table, notes = campaign.table, list(campaign.notes)
     if form == "records":

@@ -19,19 +19,8 @@ UPRIGHT = np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]])  # normal up, tangents
 def block_on_ground(gravity: np.ndarray, friction: float, gap: float = 0.0) -> BondedSystem:
     """A block of 0.4 kg on four corners; a second body far away is the driven one.
 
-    Parameters
-    ----------
-    gravity : ndarray (3,)
-        [m/s2], in the axes of the ground.
-    friction : float
-        Between block and ground.
-    gap : float
-        Under each corner [m].
-
-    Returns
-    -------
-    BondedSystem
-        Of two bodies; the corners are bonds, which act as contacts once they are broken.
+    `gravity` (3,) in m/s2 is in the axes of the ground; `gap` is under each corner [m]. The corners are bonds, which
+    act as contacts once they are broken.
     """
     corners = np.array([[x, y, -4e-3] for x in (-0.02, 0.02) for y in (-0.015, 0.015)])
     centres = np.array([[0.0, 0, 0], [9.0, 0, 0]])
@@ -45,23 +34,9 @@ def block_on_ground(gravity: np.ndarray, friction: float, gap: float = 0.0) -> B
 
 
 def slide(slope: float, friction: float, steps: int = 40, dt: float = 1e-3) -> np.ndarray:
-    """Velocity of the block on a slope, stepped from rest.
+    """Velocity (3,) [m/s] of the block on a slope, stepped from rest; zero below the angle of friction.
 
-    Parameters
-    ----------
-    slope : float
-        By which gravity leans [rad], between the two tangents.
-    friction : float
-        Between block and ground.
-    steps : int
-        How many.
-    dt : float
-        Step [s].
-
-    Returns
-    -------
-    ndarray (3,)
-        [m/s]; zero below the angle of friction.
+    Gravity leans by `slope` [rad], between the two tangents; `dt` in s.
     """
     # downhill lies between the tangents: a law for each tangent alone would pass along one of them
     gravity = G * np.array([np.sin(slope) * 0.6, np.sin(slope) * 0.8, -np.cos(slope)])

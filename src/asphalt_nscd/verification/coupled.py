@@ -26,23 +26,10 @@ APART = "de Saxce's form, computed apart"
 
 
 def wall(rows: int, across: int) -> tuple[np.ndarray, np.ndarray]:
-    """A brick wall in running bond on the ground, under its weight in a step of 1 ms.
+    """W (3 c, 3 c) [1/kg] and q (3 c,) [m/s] of a brick wall on the ground, under its weight in a step of 1 ms.
 
-    Each brick rests on two lower ones by four corners each: highly hyperstatic, W far from full rank.
-
-    Parameters
-    ----------
-    rows : int
-        Courses of bricks.
-    across : int
-        Bricks in a course.
-
-    Returns
-    -------
-    ndarray (3 c, 3 c)
-        W [1/kg].
-    ndarray (3 c,)
-        q [m/s], normal first in each contact.
+    In running bond, each brick rests on two lower ones by four corners each: highly hyperstatic, W far from full rank.
+    The normal comes first in each contact. `rows` are courses, `across` the bricks in one.
     """
     length, depth, height, mass, dt = 0.2, 0.1, 0.06, 2.0, 1e-3
     centres = np.array(
@@ -82,21 +69,8 @@ def wall(rows: int, across: int) -> tuple[np.ndarray, np.ndarray]:
 def natural_map(w: np.ndarray, q: np.ndarray, mu: float, r: np.ndarray) -> float:
     """|r - P_K(r - rho (u + mu |u_T| n))| in units of energy over |q|, written from the definition.
 
-    Parameters
-    ----------
-    w : ndarray (3 c, 3 c)
-        Delassus operator [1/kg].
-    q : ndarray (3 c,)
-        Free velocities [m/s].
-    mu : float
-        Coefficient of friction of all contacts.
-    r : ndarray (3 c,)
-        Reactions [N s] that are judged.
-
-    Returns
-    -------
-    float
-        Zero of a solution, and of nothing else.
+    `w` (3 c, 3 c) is the Delassus operator [1/kg], `q` (3 c,) the free velocities [m/s], `mu` the coefficient of
+    friction of all contacts, `r` (3 c,) the reactions [N s] that are judged. Zero of a solution, and of nothing else.
     """
     u = (w @ r + q).reshape(-1, 3)
     r, misses, sizes = r.reshape(-1, 3), [], []
@@ -131,20 +105,7 @@ def stacks() -> list[Row]:
 
 
 def twenty(seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Twenty coupled contacts of random masses.
-
-    Parameters
-    ----------
-    seed : int
-        Of the draw.
-
-    Returns
-    -------
-    ndarray (60, 60)
-        W [1/kg], far from singular.
-    ndarray (60,)
-        Free velocities [m/s]; most contacts close.
-    """
+    """W (60, 60) [1/kg], far from singular, and q (60,) [m/s] of twenty coupled contacts, most of which close."""
     rng = np.random.default_rng(seed)
     jacobian = rng.normal(size=(60, 66))
     q = rng.normal(size=60)

@@ -48,37 +48,14 @@ SLIDING = [
 
 
 def bitumen(modulus: float) -> Matrix:
-    """A nearly incompressible matrix: its bulk modulus is 2.5 GPa.
-
-    Parameters
-    ----------
-    modulus : float
-        Young's [Pa].
-
-    Returns
-    -------
-    Matrix
-        Of one film.
-    """
+    """A nearly incompressible matrix of Young's `modulus` [Pa]; its bulk modulus is 2.5 GPa."""
     return Matrix(np.array(modulus), 2.5e9)
 
 
 def pair(gap: float, ratio: float = 1.0, side: float = 0.9) -> Films:
     """One film between two spheres, of which the larger one has the radius 1.
 
-    Parameters
-    ----------
-    gap : float
-        Over the radius of the smaller sphere.
-    ratio : float
-        Radius of the smaller over that of the larger sphere.
-    side : float
-        Radius of the facet, a disc, over that of the smaller sphere.
-
-    Returns
-    -------
-    Films
-        A single one.
+    `ratio` is the smaller radius over the larger; `gap` and the facet's radius `side`, a disc, are over the smaller.
     """
     return Films(*np.array([[1.0], [ratio], [gap * ratio], [np.pi * (side * ratio) ** 2]]))
 
@@ -175,37 +152,13 @@ def network() -> list[Row]:
 
 
 def solid_fraction(prism: Specimen) -> float:
-    """Volume of the spheres over that of the prism.
-
-    Parameters
-    ----------
-    prism : Specimen
-        Of spheres that do not overlap.
-
-    Returns
-    -------
-    float
-        Without a unit.
-    """
+    """Volume of the spheres, which must not overlap, over that of the prism."""
     of = prism.geometry
     return float(4.0 / 3.0 * np.pi * (prism.radius**3).sum() / (of.width * of.thickness * of.h))
 
 
 def young(prism: Specimen, solid: Matrix) -> float:
-    """Young's modulus of a network of films.
-
-    Parameters
-    ----------
-    prism : Specimen
-        Spheres of stone, and the bonds between them and to the plates.
-    solid : Matrix
-        What fills the gaps.
-
-    Returns
-    -------
-    float
-        Of the prism pulled between its plates [Pa].
-    """
+    """Young's modulus [Pa] of a network of films of `solid`, pulled between the plates of the prism."""
     bonds, n = prism.network, prism.radius.size
     radius = np.append(prism.radius, [0.0, 0.0])  # plates are planes
     films = Films(radius[bonds.first], radius[bonds.second], bonds.gap, bonds.area)
@@ -216,19 +169,9 @@ def young(prism: Specimen, solid: Matrix) -> float:
 
 
 def bounds(solid: Matrix, fraction: float) -> tuple[float, float]:
-    """Young's modulus of stone in a matrix by Hashin & Shtrikman.
+    """Lower and upper bound [Pa] of Young's modulus of stone in a matrix by Hashin & Shtrikman.
 
-    Parameters
-    ----------
-    solid : Matrix
-        The softer of the two.
-    fraction : float
-        Of the stone.
-
-    Returns
-    -------
-    tuple of float
-        Lower and upper bound [Pa].
+    `solid`, the matrix, is the softer of the two; `fraction` is that of the stone.
     """
     soft, hard = (float(solid.bulk), float(solid.shear)), (STONE.bulk, STONE.shear)
     found = []

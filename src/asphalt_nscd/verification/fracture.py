@@ -54,37 +54,14 @@ def specimen() -> BondedSystem:
 
 
 def place(step: int) -> float:
-    """Where the actuator stands: a sine whose amplitude grows with time.
-
-    Parameters
-    ----------
-    step : int
-        Number of the step.
-
-    Returns
-    -------
-    float
-        At its end [m].
-    """
+    """Where the actuator stands at the end of a step [m]: a sine whose amplitude grows with time."""
     return GROWTH * step / PERIOD * np.sin(2 * np.pi * step / PERIOD)
 
 
 def stepper_of(method: str, scheme: Scheme, most_enrichments: int) -> CondensedStepper | ReducedStepper:
-    """A stepper of the beam at rest.
+    """A stepper, "full" or "reduced", of the beam at rest with no bond broken.
 
-    Parameters
-    ----------
-    method : str
-        "full" or "reduced".
-    scheme : Scheme
-        It tells the step that the stepper takes, DT / a.
-    most_enrichments : int
-        Of the reduced model, before it hands over to the full system.
-
-    Returns
-    -------
-    CondensedStepper or ReducedStepper
-        Nothing is broken yet.
+    It takes the step DT / a of `scheme`; after `most_enrichments` the reduced model hands over to the full system.
     """
     system, dt = specimen(), DT / scheme.a
     if method == "full":
@@ -101,19 +78,7 @@ def stepper_of(method: str, scheme: Scheme, most_enrichments: int) -> CondensedS
 def fractured(method: str, name: str, most_enrichments: int = 30) -> Run:
     """The run by "full" or "reduced" up to the step in which the hundredth bond breaks.
 
-    Parameters
-    ----------
-    method : str
-        "full" or "reduced".
-    name : str
-        Of the scheme.
-    most_enrichments : int
-        Of the reduced model, before it hands over to the full system.
-
-    Returns
-    -------
-    Run
-        Forces [N], bonds in the order in which they broke, and the energy account.
+    It has forces [N], bonds in the order in which they broke, and the energy account; see also `stepper_of`.
     """
     scheme, run = Scheme.named(name, 2 * np.pi / PERIOD), Run()
     march = March(stepper_of(method, scheme, most_enrichments), scheme, QUICK_LAW, DT)

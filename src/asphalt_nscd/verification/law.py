@@ -22,22 +22,7 @@ BURGERS_LAW = "Findley, Lai & Onaran 1976, ch. 5; Eqs. (15)-(29)"
 
 
 def creep(law: BondLaw, time: float, dt: float) -> float:
-    """Opening under a tension of 1 Pa, stepped from rest.
-
-    Parameters
-    ----------
-    law : BondLaw
-        Spring, dashpot and Kelvin elements.
-    time : float
-        How long it acts [s].
-    dt : float
-        Step [s].
-
-    Returns
-    -------
-    float
-        Opening [m]; the exact law has its creep compliance times 1 Pa.
-    """
+    """Opening [m] under a tension of 1 Pa for `time` [s], stepped from rest; exactly, creep compliance times 1 Pa."""
     step = law.step(dt)
     sigma, kelvin, opening = np.zeros(1), np.zeros((law.kelvin_springs.size, 1)), 0.0
     for _ in range(round(time / dt)):
@@ -49,21 +34,9 @@ def creep(law: BondLaw, time: float, dt: float) -> float:
 
 
 def follow(law: BondLaw, opening: np.ndarray, dt: float) -> np.ndarray:
-    """Stress at a prescribed history of the opening, from rest.
+    """Stress sigma (n,) [Pa], below zero in tension, at a prescribed history of the opening, from rest.
 
-    Parameters
-    ----------
-    law : BondLaw
-        Spring, dashpot and Kelvin elements.
-    opening : ndarray (n,)
-        At the end of each step [m]; zero before the first.
-    dt : float
-        Step [s].
-
-    Returns
-    -------
-    ndarray (n,)
-        sigma [Pa], below zero in tension.
+    `opening` (n,) in m is at the end of each step `dt` [s], zero before the first.
     """
     step = law.step(dt)
     sigma, kelvin = np.zeros(1), np.zeros((law.kelvin_springs.size, 1))
@@ -75,21 +48,9 @@ def follow(law: BondLaw, opening: np.ndarray, dt: float) -> np.ndarray:
 
 
 def steady_modulus(law: BondLaw, steps: int, cycles: int = 40) -> complex:
-    """Modulus -sigma/u of the steady oscillation at FREQUENCY.
+    """Modulus -sigma/u [Pa] of the steady oscillation at FREQUENCY, with `steps` in a cycle, from the last cycle.
 
-    Parameters
-    ----------
-    law : BondLaw
-        Spring, dashpot and Kelvin elements.
-    steps : int
-        In a cycle.
-    cycles : int
-        How many; the last one is taken, when the transient is gone.
-
-    Returns
-    -------
-    complex
-        [Pa]; it should be `discrete_modulus` of the same step.
+    It should be `discrete_modulus` of the same step.
     """
     # 40 cycles are 4 s, and the slow relaxation of the law takes 0.24 s: its transient is gone
     angle = 2 * np.pi * np.arange(1, cycles * steps + 1) / steps
@@ -99,18 +60,7 @@ def steady_modulus(law: BondLaw, steps: int, cycles: int = 40) -> complex:
 
 
 def chain_creep(time: float) -> float:
-    """Creep compliance of CHAIN, element by element.
-
-    Parameters
-    ----------
-    time : float
-        [s].
-
-    Returns
-    -------
-    float
-        [1/Pa].
-    """
+    """Creep compliance [1/Pa] of CHAIN at `time` [s], element by element."""
     delayed = sum(
         -np.expm1(-time * e / n) / e for e, n in zip(CHAIN.kelvin_springs, CHAIN.kelvin_dashpots, strict=True)
     )

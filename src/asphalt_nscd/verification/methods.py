@@ -29,46 +29,14 @@ SOFT = BondLaw(72.9e6, 0.18e6, np.array([145e6]), np.array([0.231e6]))
 
 @cache
 def beam(*shape: int) -> BondedSystem:
-    """Two-point bending of a small beam.
-
-    Parameters
-    ----------
-    *shape : int
-        Cells in each direction; (3, 2, 9) if none is given.
-
-    Returns
-    -------
-    BondedSystem
-        Of `jittered_beam`.
-    """
+    """Two-point bending of a small `jittered_beam` of `shape` cells, (3, 2, 9) if none is given."""
     return bending_system(jittered_beam(shape=shape or (3, 2, 9)), 0.35, 2.7e6, 0.7)
 
 
 def march(
     method: str, scheme_name: str, system: BondedSystem, law: AnyLaw, steps: int, omega: float = OMEGA
 ) -> March:
-    """A run from rest.
-
-    Parameters
-    ----------
-    method : str
-        "condensed" or "reduced".
-    scheme_name : str
-        As `Scheme.named` knows it.
-    system : BondedSystem
-        Bonds and masses.
-    law : AnyLaw
-        Of the bonds; the reduced model takes one law for all.
-    steps : int
-        In a cycle.
-    omega : float
-        Angular frequency [rad/s].
-
-    Returns
-    -------
-    March
-        Before its first step.
-    """
+    """A run from rest before its first step, `omega` in rad/s; `method` "reduced" takes one law for all bonds."""
     dt = 2 * np.pi / omega / steps
     scheme = Scheme.named(scheme_name, omega * dt)
     stepper: Stepper
@@ -81,45 +49,13 @@ def march(
 
 
 def stiffness(force: np.ndarray, steps: int, amplitude: float) -> complex:
-    """Force over displacement in the last of the cycles of a sine.
-
-    Parameters
-    ----------
-    force : ndarray (n,)
-        Of the head [N], a value for each step from the first.
-    steps : int
-        In a cycle.
-    amplitude : float
-        Of the head [m].
-
-    Returns
-    -------
-    complex
-        [N/m].
-    """
+    """Complex stiffness [N/m] of the head in the last cycle of a sine, from its `force` (n,) [N] at each step."""
     angle = 2 * np.pi / steps * np.arange(force.size - steps + 1, force.size + 1)
     return complex(2j * (force[-steps:] * np.exp(-1j * angle)).mean() / amplitude)
 
 
 def stepped(method: str, scheme: str, steps: int, cycles: int = 5) -> complex:
-    """Apparent stiffness of the beam, weightless, by time stepping.
-
-    Parameters
-    ----------
-    method : str
-        "condensed" or "reduced".
-    scheme : str
-        As `Scheme.named` knows it.
-    steps : int
-        In a cycle.
-    cycles : int
-        How many; the last one is taken.
-
-    Returns
-    -------
-    complex
-        [N/m].
-    """
+    """Apparent stiffness [N/m] of the weightless beam by time stepping, from the last of its cycles."""
     system = replace(beam(), load=np.zeros(beam().mass.size))
     run = march(method, scheme, system, QUICK_LAW, steps)
     sine = 1e-7 * np.sin(2 * np.pi / steps * np.arange(1, cycles * steps + 1))

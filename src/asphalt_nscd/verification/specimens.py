@@ -26,37 +26,13 @@ QUICK_LAWS = (
 
 
 def mixed(system: BondedSystem, table: tuple[BondLaw, ...] = QUICK_LAWS) -> BondLaws:
-    """Laws drawn for each bond, another along it than across.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Whose bonds get laws.
-    table : tuple of BondLaw
-        From which they are drawn, always the same ones.
-
-    Returns
-    -------
-    BondLaws
-        A normal and a tangential law for each bond.
-    """
+    """Laws drawn from `table` for each bond, always the same ones, another along it than across."""
     normal, tangential = np.random.default_rng(3).integers(len(table), size=(2, system.gap.size))
     return BondLaws.of_bonds(table, normal, tangential)
 
 
 def elastic(modulus: float) -> BondLaw:
-    """A law of springs alone, whose dashpot is infinite.
-
-    Parameters
-    ----------
-    modulus : float
-        [Pa].
-
-    Returns
-    -------
-    BondLaw
-        Without Kelvin elements.
-    """
+    """A law of springs alone of `modulus` [Pa], whose dashpot is infinite."""
     return BondLaw(modulus, np.inf, np.array([]), np.array([]))
 
 
@@ -71,27 +47,9 @@ def jittered_beam(
 ) -> Specimen:
     """A prismatic beam of spheres on a cubic lattice, each moved within its cell; bonds as in `trim`.
 
-    Parameters
-    ----------
-    seed : int
-        Of sizes and places.
-    shape : tuple of int
-        Cells in each direction, the axis of the beam last.
-    spacing : float
-        Edge of a cell [m].
-    fill : float
-        Largest radius over the spacing; a sphere stays inside its cell, so that none overlap.
-    reach : float
-        As of `trim`: gap up to which spheres are bonded [m].
-    area : str
-        Of the bonds, as of `trim`.
-    test : str
-        Two-point or four-point bending.
-
-    Returns
-    -------
-    Specimen
-        Spheres, bonds and geometry.
+    `shape` has the cells in each direction, the axis of the beam last; `spacing`, the edge of a cell, and `reach` in m.
+    `fill` is the largest radius over the spacing; a sphere stays inside its cell, so that none overlap. `test` is
+    two-point or four-point bending.
     """
     rng = np.random.default_rng(seed)
     cells = np.stack(np.meshgrid(*map(np.arange, shape), indexing="ij"), axis=-1).reshape(-1, 3)
@@ -121,29 +79,11 @@ def system_of(
     gap: float = 1.0,
     friction: float = 0.0,
 ) -> BondedSystem:
-    """A system from dense arrays; bonds do not break.
+    """A system of infinite strength from dense arrays; bonds do not break.
 
-    Parameters
-    ----------
-    operator : ndarray (3 b, d)
-        Openings of the bonds by the velocities, normal first in each.
-    weight : ndarray (3 b,) or float
-        Form factor of each component [m].
-    mass : ndarray (d,) or float
-        [kg], of rotations [kg m2].
-    driven : int
-        Degree of freedom that is prescribed.
-    load : ndarray (d,) or float
-        Forces [N] and moments [N m].
-    gap : float
-        Of all bonds [m].
-    friction : float
-        Of broken bonds in contact.
-
-    Returns
-    -------
-    BondedSystem
-        Of infinite strength.
+    `operator` (3 b, d) gives openings of the bonds by the velocities, normal first in each. `weight` (3 b,) in m are
+    form factors, `mass` (d,) in kg (of rotations kg m2), `load` (d,) in N (moments N m), or one number each. `gap` in m
+    is of all bonds. `driven` is the prescribed degree of freedom.
     """
     bonds, d = operator.shape[0] // 3, operator.shape[1]
     return BondedSystem(
@@ -161,21 +101,8 @@ def system_of(
 def chain(bodies: int, weight: float, mass: float, load: float = 0.0) -> BondedSystem:
     """Bodies in a row, each bonded to the next and the last to the wall; the first is driven along it.
 
-    Parameters
-    ----------
-    bodies : int
-        How many, one degree of freedom each.
-    weight : float
-        Form factor of each bond [m].
-    mass : float
-        Of each body [kg].
-    load : float
-        On each body, along the row [N].
-
-    Returns
-    -------
-    BondedSystem
-        The first body is driven.
+    Each has one degree of freedom; `weight` is the form factor of each bond [m], `mass` in kg and `load` [N], along the
+    row, are those of each body.
     """
     operator = np.zeros((3 * bodies, bodies))
     for k in range(bodies):
@@ -188,23 +115,9 @@ def chain(bodies: int, weight: float, mass: float, load: float = 0.0) -> BondedS
 def laminated_beam(geometry: Geometry, slices: int, shear: float) -> BondedSystem:
     """A cantilever of rigid plates, joined by four bonds at each of `slices` middles of slices.
 
-    The normal stiffnesses per modulus have the second moment e B(z)^3/12 of the section there about the
-    axis of bending, the tangential ones `shear` times its area. Foot fixed, head plate driven along x and free
-    to rotate. The plate below a cut carries the mass of half a slice on either side.
-
-    Parameters
-    ----------
-    geometry : Geometry
-        Of a two-point specimen: height, widths B and b, thickness e [m].
-    slices : int
-        How many plates.
-    shear : float
-        Tangential stiffness over modulus and area.
-
-    Returns
-    -------
-    BondedSystem
-        Its foot is fixed and its head driven along x.
+    The normal stiffnesses per modulus have the second moment e B(z)^3/12 of the section there about the axis of
+    bending, the tangential ones `shear` times its area. Foot fixed, head plate driven along x and free to rotate. The
+    plate below a cut carries the mass of half a slice on either side.
     """
     h, step = geometry.h, geometry.h / slices
     middle = (np.arange(slices) + 0.5) * step

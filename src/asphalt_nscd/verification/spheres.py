@@ -27,25 +27,8 @@ def balls(
 ) -> GranularBed:
     """Spheres of 2600 kg/m3 at rest in a box of walls.
 
-    Parameters
-    ----------
-    position : array_like (n, 3)
-        Centres [m].
-    radius : array_like (n,) or float
-        [m].
-    friction : float
-        Between spheres, and with walls.
-    restitution : float
-        Of impacts.
-    gravity : array_like (3,)
-        [m/s2].
-    box : tuple of float
-        Length, width and height [m].
-
-    Returns
-    -------
-    GranularBed
-        At rest.
+    Centres `position` (n, 3), `radius` (n,) or one, and `box` (length, width, height) in m; `gravity` (3,) in m/s2.
+    `friction` is that between spheres and with walls.
     """
     position = np.atleast_2d(np.asarray(position, float))
     radius = np.broadcast_to(radius, len(position)).astype(float)
@@ -55,90 +38,31 @@ def balls(
 
 
 def advanced(bed: GranularBed, steps: int, numerics: PouringNumerics = TIGHT) -> GranularBed:
-    """The same after so many steps.
-
-    Parameters
-    ----------
-    bed : GranularBed
-        It changes in place.
-    steps : int
-        How many.
-    numerics : PouringNumerics
-        With the time step [s].
-
-    Returns
-    -------
-    GranularBed
-        The bed that was given.
-    """
+    """Advance the bed by `steps` in place and return it."""
     for _ in range(steps):
         bed.advance(numerics)
     return bed
 
 
 def masses(bed: GranularBed) -> np.ndarray:
-    """Mass of each sphere; planes are left out.
-
-    Parameters
-    ----------
-    bed : GranularBed
-        Of n spheres.
-
-    Returns
-    -------
-    ndarray (n,)
-        [kg].
-    """
+    """Mass [kg] of each sphere (n,); planes are left out."""
     return 1.0 / bed.inverse_mass[: bed.radius.size]
 
 
 def momentum(bed: GranularBed) -> np.ndarray:
-    """Linear momentum of the spheres: constant without walls and gravity.
-
-    Parameters
-    ----------
-    bed : GranularBed
-        Of n spheres.
-
-    Returns
-    -------
-    ndarray (3,)
-        [N s].
-    """
+    """Linear momentum (3,) [N s] of the spheres: constant without walls and gravity."""
     return masses(bed) @ bed.velocity[: bed.radius.size, :3]
 
 
 def angular_momentum(bed: GranularBed) -> np.ndarray:
-    """Angular momentum of the spheres about the origin, their spin included.
-
-    Parameters
-    ----------
-    bed : GranularBed
-        Its spins are surface velocities, so that m 2/5 r s is that of a sphere.
-
-    Returns
-    -------
-    ndarray (3,)
-        [N m s].
-    """
+    """Angular momentum (3,) [N m s] of the spheres about the origin; a spin s (surface velocity) adds m 2/5 r s."""
     n, m = bed.radius.size, masses(bed)[:, None]
     v, s = bed.velocity[:n, :3], bed.velocity[:n, 3:]
     return (m * np.cross(bed.position, v) + 0.4 * m * bed.radius[:, None] * s).sum(axis=0)
 
 
 def energy(bed: GranularBed) -> float:
-    """Kinetic and potential energy of the spheres.
-
-    Parameters
-    ----------
-    bed : GranularBed
-        Of n spheres.
-
-    Returns
-    -------
-    float
-        [J]; zero of the potential energy at the origin.
-    """
+    """Kinetic and potential energy [J] of the spheres; the potential energy is zero at the origin."""
     return bed.kinetic_energy() - float(masses(bed) @ (bed.position @ bed.gravity))
 
 
@@ -305,17 +229,9 @@ def cloud() -> list[Row]:
 
 
 def thrown(members: int) -> bytes:
-    """Positions, velocities and impulses of spheres under a driven plate, in twelve slabs or more, at every step.
+    """All bits of positions, velocities and impulses of spheres under a driven plate, at every step.
 
-    Parameters
-    ----------
-    members : int
-        Of the team that steps it; the answer must not depend on it.
-
-    Returns
-    -------
-    bytes
-        All bits, so that nothing is rounded where two runs are compared.
+    They lie in twelve slabs or more; the answer must not depend on the `members` of the team that steps it.
     """
     box = (0.09, 0.014, 0.03)
     position, radius = random_lattice(

@@ -66,18 +66,7 @@ class Job:
         there.close()
 
     def look(self, wait: float = 0.0) -> str:
-        """Take what the process said meanwhile.
-
-        Parameters
-        ----------
-        wait : float
-            For its next word [s].
-
-        Returns
-        -------
-        str
-            The state: running, done, failed or cancelled.
-        """
+        """Take what the process said, waiting `wait` [s]; returns running, done, failed or cancelled."""
         while self.state == "running":
             if time.monotonic() > self._until:
                 self.stop("failed", TOO_LONG)
@@ -105,15 +94,7 @@ class Job:
             pass
 
     def stop(self, state: str = "cancelled", why: str = "") -> None:
-        """End a job, if it is running.
-
-        Parameters
-        ----------
-        state : str
-            In which it ends.
-        why : str
-            A sentence for the page.
-        """
+        """End a job, if it is running, in `state`; `why` is a sentence for the page."""
         if self.state == "running":
             self._process.kill()
             self._process.join(5.0)
@@ -146,20 +127,7 @@ def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, outpu
 
 
 def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
-    """How the files were read: sentences, the first tests, and for each column of the user's what it is taken for.
-
-    Parameters
-    ----------
-    paths : sequence of path
-        Files that the user dropped.
-    choices : Choices
-        What the user says of columns and test.
-
-    Returns
-    -------
-    dict of str to object
-        What the page shows of them, in values that JSON can hold.
-    """
+    """How the files were read, as JSON values: sentences, first tests, what each of the user's columns is taken for."""
     from asphalt_nscd.table_import.campaign import read_campaign
 
     campaign, form = read_campaign(paths, None, choices.columns, choices.measured_in)

@@ -11,20 +11,10 @@ LONG_AGO = 1e9  # s since 1970, older than any input
 
 
 def mistrust_future(folder: str | Path) -> int:
-    """Make files below `folder` that are dated in the future older than any input.
+    """Give files below `folder` that are dated in the future a date older than any input; returns how many.
 
-    Snakemake takes a result that is newer than its inputs for up to date, so that an input edited since would
-    go unnoticed. Of one older than its inputs it compares their content with what was used.
-
-    Parameters
-    ----------
-    folder : path
-        Of the results.
-
-    Returns
-    -------
-    int
-        How many there were.
+    Snakemake takes a result that is newer than its inputs for up to date, so that an input edited since would go
+    unnoticed. Of one older than its inputs it compares their content with what was used.
     """
     # Snakemake compares dates: what looks newer than its inputs would never be made again.
     latest = time.time() + TOLERANCE

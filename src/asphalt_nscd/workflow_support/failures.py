@@ -12,20 +12,11 @@ KILLED = "error: the job was killed, or the memory was used up; run the same com
 
 
 def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
-    """The last word of each failed job and the log that holds it.
+    """The last word of each failed job, with the log that holds it in brackets.
 
-    A job that could not say anything was ended from outside; its log is made to say so. Of a damaged file that one
-    job set aside, others at the same time say that it is not there, which is left out.
-
-    Parameters
-    ----------
-    snakemake_logs : iterable of path
-        Of one run of the workflow; they name the log of each failed job.
-
-    Returns
-    -------
-    list of str
-        Sentences, each with the log that holds it in brackets.
+    `snakemake_logs` are of one run of the workflow. A job that could not say anything was ended from outside; its log
+    is made to say so. Of a damaged file that one job set aside, others at the same time say that it is not there, which
+    is left out.
     """
     run = "\n".join(map(_text, snakemake_logs))
     said = []

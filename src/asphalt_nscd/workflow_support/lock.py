@@ -10,21 +10,11 @@ _alive: list[IO[str]] = []  # open files: the kernel drops their locks when this
 
 
 def release_stale_locks(directory: str | Path) -> bool:
-    """Remove the lock files in `directory`/locks where no other Snakemake lives.
+    """Remove the lock files in `directory`/locks where no other Snakemake lives; returns whether none does.
 
-    Every Snakemake that reads the Snakefile holds a shared kernel lock on `directory`/alive until it ends.
-    Whoever gets that lock exclusively knows that all others are gone, while Snakemake's own lock files
-    survive SIGKILL and power loss, and wait for its option `--unlock`.
-
-    Parameters
-    ----------
-    directory : path
-        Where Snakemake keeps its state; made if it is not there.
-
-    Returns
-    -------
-    bool
-        Whether no other lives.
+    Every Snakemake that reads the Snakefile holds a shared kernel lock on `directory`/alive until it ends. Whoever gets
+    that lock exclusively knows that all others are gone, while Snakemake's own lock files survive SIGKILL and power
+    loss, and wait for its option `--unlock`. The directory is made if it is not there.
     """
     directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)

@@ -25,21 +25,6 @@ def source_files(*modules: str) -> list[Path]:
     """Files of `modules` (dotted, relative to the package) and of all they import from it, sorted.
 
     Imports inside functions count. A package's `__init__.py` counts only where it is itself imported.
-
-    Parameters
-    ----------
-    *modules : str
-        Dotted, relative to the package.
-
-    Returns
-    -------
-    list of Path
-        Sorted.
-
-    Raises
-    ------
-    ValueError
-        For a module that is not there.
     """
     found: set[Path] = set()
     waiting = []
@@ -59,22 +44,8 @@ def source_files(*modules: str) -> list[Path]:
 def stamp(folder: str | Path, name: str, files: Sequence[Path]) -> Path:
     """A file that stands for the meaning of many source files, rewritten only when one of them changed.
 
-    Comments, docstrings and layout mean nothing. Snakemake looks at each input of each waiting job
-    whenever a job ends, so one file is better than thirty.
-
-    Parameters
-    ----------
-    folder : path
-        Of the stamps.
-    name : str
-        Of the file.
-    files : sequence of Path
-        Sources in the package.
-
-    Returns
-    -------
-    Path
-        Of the file, which holds a digest of what they mean.
+    It holds a digest of what they mean; comments, docstrings and layout mean nothing. Snakemake looks at each input of
+    each waiting job whenever a job ends, so one file is better than thirty.
     """
     digest = hashlib.sha256()
     for file in files:
@@ -85,25 +56,10 @@ def stamp(folder: str | Path, name: str, files: Sequence[Path]) -> Path:
 
 
 def stamp_of_row(folder: str | Path, table: str | Path, key: str, value: float) -> Path:
-    """The same for the row of a CSV table in which column `key` is `value`: other rows do not count.
+    """A stamp for the row of a CSV table in which column `key` is `value`: other rows do not count.
 
-    A table that cannot be read, or has no such row, stands as a whole: whoever reads it says what is wrong.
-
-    Parameters
-    ----------
-    folder : path
-        Of the stamps.
-    table : path
-        CSV; lines that begin with # do not count.
-    key : str
-        Column.
-    value : float
-        Of the row in it.
-
-    Returns
-    -------
-    Path
-        Of the file, which is named by the table and the value.
+    Lines that begin with # do not count. A table that cannot be read, or has no such row, stands as a whole: whoever
+    reads it says what is wrong. The file is named by the table and the value.
     """
     path = Path(table)
     text = path.read_text(encoding="utf-8-sig", errors="replace") if path.is_file() else ""
@@ -135,18 +91,7 @@ def _is_number(text: str, value: float) -> bool:
 
 
 def modules_of(package: str) -> list[str]:
-    """Modules of a package (dotted, relative to this one) that finds them by itself, without an import statement.
-
-    Parameters
-    ----------
-    package : str
-        Dotted, relative to this one.
-
-    Returns
-    -------
-    list of str
-        As `source_files` takes them, sorted.
-    """
+    """Modules (dotted, sorted) of a package that finds them by itself, without an import statement."""
     folder = PACKAGE.joinpath(*package.split("."))
     return [f"{package}.{path.stem}" for path in sorted(folder.glob("*.py")) if path.name != "__init__.py"]
 

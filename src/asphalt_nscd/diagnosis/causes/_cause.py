@@ -21,19 +21,7 @@ MATERIAL, SPECIMEN, HEAD, CHANNEL = range(4)  # in the order in which a signal p
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter of a cause.
-
-    Parameters
-    ----------
-    name : str
-        Of the parameter.
-    unit : str
-        Of its value.
-    low, high : float
-        Bounds.
-    typical : float
-        Size at which its effect is of order a per cent.
-    """
+    """One parameter of a cause, with its bounds and the `typical` size at which its effect is about a per cent."""
 
     name: str
     unit: str
@@ -69,83 +57,25 @@ class Cause(ABC):
         return self.parameters[0].low >= 0.0
 
     def places(self, observed: Observations) -> Sequence[Place]:
-        """Where the cause may sit.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        sequence
-            Specimens, isotherms [degC], or None: all tests; empty if the table cannot show it or the bench
-            cannot have it.
-        """
+        """Specimens, isotherms [degC] or None (all tests) where it may sit; empty if the table or the bench cannot."""
         return (None,) if self.on_bench(observed) and self.shows(observed) else ()
 
     def shows(self, observed: Observations) -> bool:
-        """Whether the table can show the cause at all.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        bool
-            True, unless a cause says what it takes.
-        """
+        """Whether the table can show the cause at all: yes, unless a cause says what it takes."""
         return True
 
     def on_bench(self, observed: Observations) -> bool:
-        """Whether the apparatus of these tests can have the cause at all.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        bool
-            True if so, or if the bench is unknown and every bench can.
-        """
+        """Whether the apparatus can have the cause; True too if the bench is unknown and every bench can."""
         if observed.test_type == UNKNOWN:  # only what every test can have
             return set(TEST_TYPES) <= set(self.benches)
         return observed.test_type in self.benches
 
     def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
-        """Values of the parameters after the first at which its search starts.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        sequence of tuple of float
-            At least one.
-        """
+        """Values of the parameters after the first at which the search starts, at least one set of them."""
         return ((),)
 
     def rows(self, observed: Observations, place: Place) -> NDArray[np.bool_]:
-        """Rows that the cause reaches.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-        place : Place
-            Where it sits.
-
-        Returns
-        -------
-        ndarray of bool (n,)
-            True there.
-        """
+        """Rows (n,) of the table that the cause reaches from its place."""
         if place is None:
             return np.ones(observed.size, bool)
         if isinstance(place, str):
@@ -154,88 +84,21 @@ class Cause(ABC):
         return observed.isotherm == place
 
     def largest(self, observed: Observations) -> float:
-        """Amplitude above which no detection limit is stated, as no cause of this name is larger.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        float
-            In the unit of the first parameter.
-        """
+        """Amplitude above which no detection limit is stated [unit of the first parameter]; no such cause is larger."""
         return self.parameters[0].high
 
     def impossible(self, values: Vector, observed: Observations) -> str:
-        """Why these tests cannot have a cause of this size.
-
-        Parameters
-        ----------
-        values : ndarray (p,)
-            Of its parameters, in their units.
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        str
-            Empty where they can.
-        """
+        """Say why these tests cannot have a cause of this size; empty where they can."""
         return ""
 
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
-        """Temperature of the mix above the one stated.
-
-        Parameters
-        ----------
-        values : ndarray (p,)
-            Of its parameters, in their units.
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        ndarray (n,) or float
-            [K].
-        """
+        """Temperature of the mix above the one stated [K], (n,) or one for all; `values` (p,) in their units."""
         return 0.0
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """Modulus after this cause, of the modulus before it; analytic in the modulus.
-
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (p,)
-            Of its parameters, in their units.
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* after [Pa].
-        """
+        """Modulus E* (n,) after this cause, of the one before it [Pa]; analytic in the modulus; `values` (p,)."""
         return modulus
 
     def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
-        """What it changes at the head and in the channel of the simulation.
-
-        Parameters
-        ----------
-        values : ndarray (p,)
-            Of its parameters, in their units.
-        form_factor : float
-            gamma of the specimen [1/m].
-        amplitude : float
-            Of the simulated test [m].
-
-        Returns
-        -------
-        dict of str to float
-            Keys of `rig.read_rig`.
-        """
+        """What it changes in the simulation (keys of `rig.read_rig`); `form_factor` in 1/m, `amplitude` in m."""
         return {}

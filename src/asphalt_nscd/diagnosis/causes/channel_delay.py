@@ -20,56 +20,18 @@ class ChannelDelay(Cause):
     confirmed_by = "a test on an elastic reference specimen of metal, which has no phase of its own"
 
     def shows(self, observed: Observations) -> bool:
-        """All tests, where at least two frequencies were tested: at one, a delay is an angle like any other.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        bool
-            True if so.
-        """
+        """Whether two frequencies or more were tested: at one, a delay is an angle like any other."""
         return observed.frequencies.size > 1
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """The recorded F/z turned by omega tau; the inertia that the reduction adds by Eq. (1) is not turned.
+        """Turn the recorded F/z by omega tau; the inertia that the reduction adds by Eq. (1) is not turned.
 
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            The delay tau [s].
-        observed : Observations
-            Measured tests, with the inertia that their reduction adds.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            (E* - gamma m omega^2) exp(i omega tau) + gamma m omega^2 [Pa].
+        With `values` (1,) the delay tau in s: (E* - gamma m omega^2) exp(i omega tau) + gamma m omega^2 (n,) [Pa].
         """
         # The delay turns F/z as recorded; the reduction then adds the inertia of Eq. (1), unturned.
         inertia = observed.inertia * observed.omega**2
         return (modulus - inertia) * np.exp(1j * observed.omega * values[0]) + inertia
 
     def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
-        """The channel of the simulation delays the displacement.
-
-        Parameters
-        ----------
-        values : ndarray (1,)
-            The delay [s].
-        form_factor : float
-            gamma of the specimen [1/m]; of no effect.
-        amplitude : float
-            Of the simulated test [m]; of no effect.
-
-        Returns
-        -------
-        dict of str to float
-            channel_delay_s.
-        """
+        """The channel of the simulation delays the displacement: channel_delay_s."""
         return {"channel_delay_s": values[0]}

@@ -15,37 +15,15 @@ class Damage(Cause):
     needs = "the order of the tests (column order or cycles)"
 
     def shows(self, observed: Observations) -> bool:
-        """All tests, where the table tells their order or their cycles, and not all are the same.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        bool
-            True if so.
-        """
+        """Whether the table tells the order or the cycles of its tests, and not all are the same."""
         known = observed.cycles is not None or observed.order is not None
         return known and bool(np.ptp(self._progress(observed)) > 0.0)
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """Modulus that falls in proportion to the cycles borne, or to the number of the test.
+        """Modulus that falls in proportion to the cycles borne or, where these are unknown, to the number of the test.
 
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            Loss at the last test, as a share of the modulus.
-        observed : Observations
-            Measured tests; cycles count before their order, where both are known.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* (1 - loss progress) [Pa], progress from 0 at the first to 1 at the last test.
+        E* (1 - loss progress) (n,) [Pa], progress from 0 at the first to 1 at the last test; `values` (1,) is the loss
+        at the last test, as a share of the modulus.
         """
         return modulus * (1.0 - values[0] * self._progress(observed))
 

@@ -21,21 +21,9 @@ class GuideFriction(Cause):
     confirmed_by = "a test of the rig without a specimen, or tests at two amplitudes"
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """A loss added to E2, larger where the amplitude is smaller.
+        """Add a loss to E2, larger where the amplitude z0 is smaller: E* + i loss (median z0) / z0 (n,) [Pa].
 
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            Loss modulus at the median amplitude [Pa].
-        observed : Observations
-            Measured tests; without amplitudes the loss is the same in all.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* + i loss (median z0) / z0 [Pa].
+        `values` (1,) is the loss modulus at the median amplitude in Pa; without amplitudes it is the same in all tests.
         """
         loss: Vector | float = values[0]
         if observed.amplitude is not None:
@@ -43,20 +31,5 @@ class GuideFriction(Cause):
         return modulus + 1j * loss
 
     def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
-        """The slider whose first harmonic is this loss: F = loss pi z0 / (4 gamma).
-
-        Parameters
-        ----------
-        values : ndarray (1,)
-            Loss modulus [Pa].
-        form_factor : float
-            gamma of the specimen [1/m].
-        amplitude : float
-            Of the simulated test, z0 [m].
-
-        Returns
-        -------
-        dict of str to float
-            guide_friction_N.
-        """
+        """The slider with this loss [Pa] as first harmonic: guide_friction_N = loss pi z0 / (4 gamma), z0 in m."""
         return {"guide_friction_N": values[0] / form_factor * np.pi * amplitude / 4.0}

@@ -17,55 +17,14 @@ class GuideStiffness(Cause):
     needs = "two-point bending and the static modulus of the mix (--static-modulus-mpa), since both add alike to |E*|"
 
     def shows(self, observed: Observations) -> bool:
-        """All tests of a bench with a guide, where the static modulus of the mix is known: the two add alike to E1.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        bool
-            True if so.
-        """
+        """Whether the static modulus of the mix is known: it and a guide add alike to E1."""
         # It adds to E1 as a larger static modulus does at every temperature and frequency: that must be known.
         return observed.static_modulus is not None
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """A constant added to E1.
-
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            Modulus of the spring [Pa].
-        observed : Observations
-            Measured tests; of no effect.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* + modulus [Pa].
-        """
+        """Add a constant to E1: E* + modulus (n,) [Pa], with `values` (1,) the modulus of the spring in Pa."""
         return modulus + values[0]
 
     def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
-        """The spring between head and ground: its modulus over the form factor.
-
-        Parameters
-        ----------
-        values : ndarray (1,)
-            Modulus of the spring [Pa].
-        form_factor : float
-            gamma of the specimen [1/m].
-        amplitude : float
-            Of the simulated test [m]; of no effect.
-
-        Returns
-        -------
-        dict of str to float
-            guide_stiffness_N_m.
-        """
+        """The spring between head and ground: guide_stiffness_N_m is its modulus [Pa] over the form factor [1/m]."""
         return {"guide_stiffness_N_m": values[0] / form_factor}

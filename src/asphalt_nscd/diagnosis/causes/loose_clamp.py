@@ -21,55 +21,14 @@ class LooseClamp(Cause):
     confined_to = "specimen"
 
     def places(self, observed: Observations) -> Sequence[Place]:
-        """Each specimen, where there are others: a compliance of all specimens is another law exactly.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        sequence of str
-            Names of specimens, or empty.
-        """
+        """Each specimen, where there are others: a compliance of all specimens is another law exactly."""
         # A compliance of all specimens, 1/E + C, is another law exactly: only one that differs shows.
         return observed.names if len(observed.names) > 1 and self.on_bench(observed) else ()
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """A compliance in series with the specimen.
-
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            The compliance C [1/Pa].
-        observed : Observations
-            Measured tests; of no effect.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            1 / (1/E* + C) [Pa].
-        """
+        """Put a compliance C in series with the specimen: 1 / (1/E* + C) (n,) [Pa], with `values` (1,) C in 1/Pa."""
         return modulus / (1.0 + values[0] * modulus)
 
     def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
-        """The compliance between head and specimen: C times the form factor.
-
-        Parameters
-        ----------
-        values : ndarray (1,)
-            The compliance C [1/Pa].
-        form_factor : float
-            gamma of the specimen [1/m].
-        amplitude : float
-            Of the simulated test [m]; of no effect.
-
-        Returns
-        -------
-        dict of str to float
-            clamp_compliance_m_N.
-        """
+        """The compliance between head and specimen: clamp_compliance_m_N is C [1/Pa] times the form factor [1/m]."""
         return {"clamp_compliance_m_N": values[0] * form_factor}

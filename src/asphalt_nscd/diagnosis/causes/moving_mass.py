@@ -23,53 +23,18 @@ class MovingMass(Cause):
     confirmed_by = "weighing what moves with the head, or a test of the rig without a specimen"
 
     def shows(self, observed: Observations) -> bool:
-        """All tests of a two-point bench at two frequencies or more: at one, a mass is a constant of E1.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        bool
-            True if so.
-        """
+        """Whether two frequencies or more were tested: at one, a mass is a constant of E1."""
         return observed.frequencies.size > 1
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """The inertia that Eq. (1) leaves out takes from E1.
-
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            Mass dm that the reduction lacks [kg].
-        observed : Observations
-            Measured tests, with the form factor gamma [1/m] of their specimens.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* - gamma dm omega^2 [Pa].
-        """
+        """Take from E1 the inertia of dm [kg], `values` (1,), that Eq. (1) leaves out: E* - gamma dm omega^2 [Pa]."""
         return modulus - observed.form_factor * values[0] * observed.omega**2
 
     def impossible(self, values: Vector, observed: Observations) -> str:
-        """Less than no mass cannot move: the reduction's own count bounds what it counts too much.
+        """Name the mass that the reduction counts where less than none would move; empty where the size can be.
 
-        Parameters
-        ----------
-        values : ndarray (1,)
-            Mass that the reduction lacks [kg]; below zero, it counts too much.
-        observed : Observations
-            Measured tests; moduli given without their reduction bound nothing.
-
-        Returns
-        -------
-        str
-            Empty where it can be; else the mass that the reduction counts.
+        `values` (1,) is the mass that the reduction lacks in kg, below zero where it counts too much: its own count
+        bounds that. Moduli given without their reduction bound nothing.
         """
         counted = float((observed.inertia / observed.form_factor).max())  # nothing, where moduli were given
         if values[0] >= -counted or not counted:
@@ -77,20 +42,5 @@ class MovingMass(Cause):
         return f"Less than no mass would move: the reduction counts {1e3 * counted:.0f} g"
 
     def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
-        """The mass on the head of the simulation.
-
-        Parameters
-        ----------
-        values : ndarray (1,)
-            The mass [kg].
-        form_factor : float
-            gamma of the specimen [1/m]; of no effect.
-        amplitude : float
-            Of the simulated test [m]; of no effect.
-
-        Returns
-        -------
-        dict of str to float
-            head_mass_kg.
-        """
+        """The mass on the head of the simulation: head_mass_kg."""
         return {"head_mass_kg": values[0]}

@@ -16,41 +16,14 @@ class PhaseOffset(Cause):
     confirmed_by = "a test on an elastic reference specimen of metal, which has no phase of its own"
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """The recorded F/z turned by one angle; the inertia that the reduction adds by Eq. (1) is not turned.
+        """Turn the recorded F/z by one angle; the inertia that the reduction adds by Eq. (1) is not turned.
 
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            The angle phi [deg].
-        observed : Observations
-            Measured tests, with the inertia that their reduction adds.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            (E* - gamma m omega^2) exp(i phi) + gamma m omega^2 [Pa].
+        With `values` (1,) the angle phi in deg: (E* - gamma m omega^2) exp(i phi) + gamma m omega^2 (n,) [Pa].
         """
         # The error turns F/z as recorded; the reduction then adds the inertia of Eq. (1), unturned.
         inertia = observed.inertia * observed.omega**2
         return (modulus - inertia) * np.exp(1j * np.radians(values[0])) + inertia
 
     def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
-        """The channel of the simulation turns the phase.
-
-        Parameters
-        ----------
-        values : ndarray (1,)
-            The angle [deg].
-        form_factor : float
-            gamma of the specimen [1/m]; of no effect.
-        amplitude : float
-            Of the simulated test [m]; of no effect.
-
-        Returns
-        -------
-        dict of str to float
-            phase_offset_rad.
-        """
+        """The channel of the simulation turns the phase: phase_offset_rad, of `values` (1,) in deg."""
         return {"phase_offset_rad": float(np.radians(values[0]))}

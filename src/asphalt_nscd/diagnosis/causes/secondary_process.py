@@ -26,32 +26,14 @@ class SecondaryProcess(Cause):
     shows_in = "tests that a law fits; in these, what the law misses would pass for a second loss peak"
 
     def shows(self, observed: Observations) -> bool:
-        """All tests, where there are three isotherms and three frequencies or more.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        bool
-            True if so.
-        """
+        """Whether there are three isotherms and three frequencies or more."""
         return observed.isotherms.size > 2 and observed.frequencies.size > 2
 
     def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
-        """Starts of its search: a peak anywhere in the tested band, which shifts less than the mix.
+        """Starts of the search: a peak anywhere in the tested band, which shifts less than the mix.
 
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests, whose band the times cover at the middle temperature.
-
-        Returns
-        -------
-        sequence of tuple of float
-            45 of log10 of the time [s], activation energy [kJ/mol] and exponent [-].
+        45 triples of log10 of the time [s], activation energy [kJ/mol] and exponent [-]; the times cover the band at
+        the middle temperature.
         """
         # Its peak anywhere in the tested band at the middle temperature, shifting less than the mix.
         slow, fast = -np.log10(observed.omega.min()) + 0.5, -np.log10(observed.omega.max()) - 0.5
@@ -59,36 +41,14 @@ class SecondaryProcess(Cause):
         return tuple(product(times.tolist(), energies, exponents))
 
     def largest(self, observed: Observations) -> float:
-        """A share of the stiffest test: a bump above it is the main process, and a law follows it.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        float
-            Strength [Pa].
-        """
+        """A share of the stiffest test [Pa]: a bump above it is the main process, and a law follows it."""
         return SECONDARY * float(np.abs(observed.modulus).max())
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """A Cole-Cole process added to E*; its time is that at the middle isotherm of the whole table.
+        """Add a Cole-Cole process to E*: E* + strength (i omega tau)^a / (1 + (i omega tau)^a) (n,) [Pa].
 
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (4,)
-            Strength [Pa], log10 of the time [s], activation energy [kJ/mol], exponent a [-].
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* + strength (i omega tau)^a / (1 + (i omega tau)^a) [Pa].
+        `values` (4,): strength [Pa], log10 of the time tau [s] at the middle isotherm of the whole table, activation
+        energy [kJ/mol], exponent a [-].
         """
         strength, log_time, energy, exponent = values
         # Of the whole table, so that its time means the same where isotherms are left out.

@@ -14,36 +14,15 @@ class SelfHeating(Cause):
     confirmed_by = "a thermometer in the specimen, or the drift of the modulus during a longer test"
 
     def shows(self, observed: Observations) -> bool:
-        """All tests, where frequencies and isotherms are several and the mix dissipates at all.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        bool
-            True if so.
-        """
+        """Whether frequencies and isotherms are several and the mix dissipates at all."""
         several = observed.frequencies.size > 1 and observed.isotherms.size > 1
         # A table of metal dissipates nothing.
         return several and bool(self._power(observed.table).max() > 0.0)
 
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
-        """Rise in proportion to omega E2 z0^2, by the measured loss; without amplitudes to omega E2.
+        """Rise (n,) [K] in proportion to omega E2 z0^2, without amplitudes to omega E2, by the measured loss.
 
-        Parameters
-        ----------
-        values : ndarray (1,)
-            Rise of the test that dissipates most in the whole table [K].
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        ndarray (n,)
-            [K].
+        `values` (1,) is the rise of the test that dissipates most in the whole table in K.
         """
         return values[0] * self._power(observed) / self._power(observed.table).max()
 

@@ -19,36 +19,14 @@ class Solver(Cause):
     needs = "simulated tests (column time_step_s); in measurements there is no time step"
 
     def shows(self, observed: Observations) -> bool:
-        """All tests, where the table tells the time step of a simulation.
-
-        Parameters
-        ----------
-        observed : Observations
-            Simulated tests, or measured ones.
-
-        Returns
-        -------
-        bool
-            True if so.
-        """
+        """Whether the table tells the time step of a simulation."""
         return observed.time_step is not None
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """What implicit Euler makes of the modulus of a smooth law, whose slope is its phase over pi/2.
 
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            One for the whole effect of the time step, zero for none.
-        observed : Observations
-            Simulated tests, with their time steps dt [s].
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* ((1 - exp(-i omega dt)) / (i omega dt))^(value slope) [Pa].
+        E* ((1 - exp(-i omega dt)) / (i omega dt))^(value slope) (n,) [Pa], with dt in s from `observed`; `values` (1,)
+        is one for the whole effect of the time step, zero for none.
         """
         slope = np.angle(modulus) / (0.5 * np.pi)
         step = 1j * observed.omega * observed.known("time_step")

@@ -20,36 +20,10 @@ class SpecimenGeometry(Cause):
     confined_to = "specimen"
 
     def places(self, observed: Observations) -> Sequence[Place]:
-        """Each specimen, of three or more: of two neither is the odd one.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        sequence of str
-            Names of specimens, or empty.
-        """
+        """Each specimen, of three or more: of two neither is the odd one."""
         # Of two specimens neither is the odd one.
         return observed.names if len(observed.names) > 2 else ()
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """One factor on the modulus; the phase stays.
-
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            Relative change r of the modulus.
-        observed : Observations
-            Measured tests; of no effect.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* (1 + r) [Pa].
-        """
+        """Multiply the modulus by one factor; the phase stays: E* (1 + r) (n,) [Pa], with `values` (1,) r."""
         return modulus * (1.0 + values[0])

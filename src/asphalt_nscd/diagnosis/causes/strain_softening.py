@@ -15,39 +15,13 @@ class StrainSoftening(Cause):
     needs = "more than one amplitude (column amplitude_m)"
 
     def shows(self, observed: Observations) -> bool:
-        """All tests, where their amplitudes span more than a fifth of the largest.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        bool
-            True if so.
-        """
+        """Whether the amplitudes of the tests span more than a fifth of the largest."""
         amplitude = observed.amplitude
         # Amplitudes that wobble about one setting are no sweep of the strain.
         return amplitude is not None and bool(np.ptp(amplitude) > 0.2 * amplitude.max())
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """Modulus that falls in proportion to the amplitude A.
-
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa].
-        values : ndarray (1,)
-            Loss s at the largest amplitude of the whole table, as a share of the modulus.
-        observed : Observations
-            Measured tests with their amplitudes [m].
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* (1 - s A / A_max) [Pa].
-        """
+        """E* (1 - s A / A_max) [Pa] falls with the amplitude A [m]; `values` (1,) is s, A_max of the whole table."""
         return modulus * (
             1.0 - values[0] * observed.known("amplitude") / observed.table.known("amplitude").max()
         )

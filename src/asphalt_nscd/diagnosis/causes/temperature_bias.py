@@ -17,53 +17,14 @@ class TemperatureBias(Cause):
     confined_to = "temperature_C"
 
     def places(self, observed: Observations) -> Sequence[Place]:
-        """Each isotherm with a few tests at least, of four or more: a bias of one of two is a change of the shift law.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        sequence of float
-            Isotherms [degC], or empty.
-        """
+        """Each isotherm [degC] with a few tests at least, of four or more; a bias of one of two is a shift law."""
         # Two isotherms: a bias of one is a change of the shift law.
         return tuple(float(t) for t in observed.held_isotherms) if observed.isotherms.size > 3 else ()
 
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
-        """The same for all tests of the isotherm.
-
-        Parameters
-        ----------
-        values : ndarray (1,)
-            Temperature of the specimens above the one stated [K].
-        observed : Observations
-            Measured tests; of no effect.
-
-        Returns
-        -------
-        float
-            [K].
-        """
+        """The same rise of the specimens above the stated temperature for all tests of the isotherm [K]."""
         return values[0]
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """The modulus as it is: what the temperature does to it is the law's.
-
-        Parameters
-        ----------
-        modulus : ndarray of complex (n,)
-            E* before [Pa], already at the true temperature.
-        values : ndarray (1,)
-            Temperature of the specimens above the one stated [K]; of no effect.
-        observed : Observations
-            Measured tests; of no effect.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* [Pa].
-        """
+        """Leave the modulus E* (n,) [Pa] as it is: what the temperature does to it is the law's."""
         return modulus

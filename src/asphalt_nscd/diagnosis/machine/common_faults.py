@@ -18,17 +18,7 @@ SHOWS = 5.0  # times the error of the whole, up to which a part is told
 
 @dataclass(frozen=True)
 class Part:
-    """An amplitude in one campaign, isotherm or frequency, in the unit of its cause.
-
-    Parameters
-    ----------
-    where : str
-        Which.
-    value : float
-        NaN where nothing shows it.
-    std_error : float
-        Of the value.
-    """
+    """An amplitude in one campaign, isotherm or frequency, in the unit of its cause; NaN where nothing shows it."""
 
     where: str
     value: float
@@ -65,14 +55,8 @@ class Common:
 class Pooled:
     """What the campaigns of a machine have in common.
 
-    Parameters
-    ----------
-    found : tuple of Common
-        Causes, common ones first.
-    limits : mapping of str to float
-        Amplitude of each cause that they would show together.
-    left_out : tuple of str
-        Campaigns that one law does not describe.
+    `found` lists common causes first; `limits` are amplitudes of each cause that the campaigns would show together;
+    `left_out` are campaigns that one law does not describe.
     """
 
     found: tuple[Common, ...]

@@ -31,18 +31,7 @@ from asphalt_nscd.diagnosis.written import widening
 
 
 def of_machine(cause: Cause) -> bool:
-    """Whether a cause sits in the head or the channels, the same in all tests of a machine.
-
-    Parameters
-    ----------
-    cause : Cause
-        One of the catalogue.
-
-    Returns
-    -------
-    bool
-        True for one parameter, of head or channel, confined to no specimen and no isotherm.
-    """
+    """Whether a cause has one parameter, of head or channel, the same in all tests of a machine."""
     # Amplitudes add up over campaigns; the shapes of a cause would not.
     return cause.stage >= HEAD and not cause.confined_to and len(cause.parameters) == 1
 
@@ -96,22 +85,7 @@ class _Evidence:
 
 
 def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -> Pooled:
-    """Find what the campaigns have in common.
-
-    Parameters
-    ----------
-    campaigns : mapping of str to Diagnosis
-        By name.
-    draws : int
-        Of the chance level.
-    seed : int
-        Of the draws.
-
-    Returns
-    -------
-    Pooled
-        `str` of it says what was found.
-    """
+    """Find what the campaigns have in common; `draws` are those of the chance level."""
     random = np.random.default_rng(seed)
     begun = {name: _begin(name, diagnosis) for name, diagnosis in campaigns.items()}
     states = [one for one in begun.values() if one is not None]

@@ -24,64 +24,20 @@ class Base(Protocol):
     """A law of the mix with p parameters (all real, of order one)."""
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
-        """E* of the law and its derivatives.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Parameters.
-        omega : ndarray (n,)
-            Angular frequencies [rad/s].
-        temperature : ndarray (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* [Pa].
-        ndarray of complex (n, p)
-            Its derivative with respect to the parameters.
-        """
+        """E* (n,) of the law [Pa] and its derivative (n, p) by x (p,); `omega` in rad/s, `temperature` in degC."""
 
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
-        """How far the law is from what mixes are.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Parameters.
-
-        Returns
-        -------
-        ndarray (k,)
-            Residuals of the prior in standard deviations.
-        ndarray (k, p)
-            Their derivative.
-        """
+        """How far the law is from what mixes are: residuals (k,) in standard deviations, and derivative (k, p)."""
 
 
 @dataclass(frozen=True)
 class FlexibleSpectrum:
-    """Maxwell elements on WLF-reduced time.
+    """Maxwell elements (m) on WLF-reduced time; tests reach `below` and `above` the reference [degC] in K.
 
-    Parameters x of a law: ln strength (m), ln static modulus, ln slope, log-odds of the curvature, departure.
-    WLF by its slope C1/C2 and curvature 1/C2, of which a shift straight in T is nothing special; in C1 and C2
-    it lies at infinity, and an isotherm was said to be off instead.
-
-    Parameters
-    ----------
-    times : ndarray (m,)
-        Relaxation times at the reference temperature [s], ascending.
-    reference_temperature : float
-        [degC].
-    below, above : float
-        How far the tests reach from it [K].
-    roughness : float
-        Standard deviation of the second differences of ln(strength).
-    static_modulus : float, optional
-        Known from elsewhere [Pa], or None.
-    ends_straight : bool
-        Whether the tests come near it.
+    Parameters x: ln strength (m), ln static modulus, ln slope, log-odds of the curvature, departure. By slope C1/C2 and
+    curvature 1/C2 a shift straight in T is nothing special; in C1 and C2 it lies at infinity, and an isotherm was said
+    to be off instead. `times` (m,) ascend, in s; `roughness` is the standard deviation of second differences of ln
+    strength; `ends_straight` says whether the tests come near the `static_modulus` [Pa].
     """
 
     times: Vector
@@ -114,57 +70,18 @@ class FlexibleSpectrum:
         return least, 1.0 / (self.below + CLEAR) - least
 
     def log_odds(self, curvature: float) -> float:
-        """The parameter for a curvature, or the nearest that is well within the bounds.
-
-        Parameters
-        ----------
-        curvature : float
-            1/C2 [1/K].
-
-        Returns
-        -------
-        float
-            Log-odds.
-        """
+        """Log-odds of a curvature 1/C2 in 1/K, or of the nearest that is well within the bounds."""
         least, width = self._curvatures
         # Well inside: at a bound the derivative by the log-odds vanishes, and no fit would leave.
         return float(logit(np.clip((curvature - least) / width, 0.1, 0.9)))
 
     def curvature(self, log_odds: float) -> tuple[float, float]:
-        """The curvature of a parameter.
-
-        Parameters
-        ----------
-        log_odds : float
-            The parameter.
-
-        Returns
-        -------
-        float
-            1/C2 [1/K].
-        float
-            Its derivative.
-        """
+        """Curvature 1/C2 [1/K] of its log-odds, and its derivative."""
         (least, width), share = self._curvatures, float(expit(log_odds))
         return least + width * share, width * share * (1.0 - share)
 
     def log_shift(self, x: Vector, temperature: Vector) -> tuple[Vector, NDArray]:
-        """The shift.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Parameters.
-        temperature : ndarray (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray (n,)
-            ln a_T.
-        ndarray (n, 3)
-            Its derivative with respect to the last three parameters.
-        """
+        """ln a_T (n,) at temperatures (n,) in degC, and its derivative (n, 3) by the last three parameters."""
         curvature, change = self.curvature(x[-2])
         away = temperature - self.reference_temperature
         bent = away / (1.0 + curvature * away)
@@ -176,24 +93,7 @@ class FlexibleSpectrum:
         return wlf + x[-1] * cubic, np.column_stack([wlf, -wlf * bent * change, cubic])
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
-        """E* of the law and its derivatives.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Parameters.
-        omega : ndarray (n,)
-            Angular frequencies [rad/s].
-        temperature : ndarray (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* [Pa].
-        ndarray of complex (n, p)
-            Its derivative with respect to the parameters.
-        """
+        """E* (n,) of the law [Pa] and its derivative (n, p); `omega` (n,) in rad/s, `temperature` (n,) in degC."""
         m = self.times.size
         shift, shift_slopes = self.log_shift(x, temperature)
         z = 1j * (omega * np.exp(shift))[:, None] * self.times
@@ -211,36 +111,12 @@ class FlexibleSpectrum:
         return static + terms.sum(axis=1), slope
 
     def shift_strain(self, x: Vector) -> float:
-        """How far the shift is from the shifts that mixes have.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Parameters.
-
-        Returns
-        -------
-        float
-            Squares of its prior.
-        """
+        """How far the shift is from the shifts that mixes have: squares of its prior."""
         away = self.prior(x)[0][-3:]
         return float(away @ away)
 
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
-        """How far the law is from what mixes are.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Parameters.
-
-        Returns
-        -------
-        ndarray (k,)
-            Residuals of the prior in standard deviations.
-        ndarray (k, p)
-            Their derivative.
-        """
+        """How far the law is from what mixes are: residuals (k,) in standard deviations, and derivative (k, p)."""
         m = self.times.size
         rows = np.zeros((m + 2, self.parameters))
         # second differences: a power law, whose spectrum is straight, costs nothing
@@ -261,13 +137,7 @@ class FlexibleSpectrum:
 
 @dataclass(frozen=True)
 class BurgersAtEach:
-    """A Burgers law for each temperature, the paper's base. Parameters: ln(Em, eta_m, Ek, eta_k) of each.
-
-    Parameters
-    ----------
-    isotherms : ndarray (t,)
-        [degC].
-    """
+    """A Burgers law for each isotherm [degC], the paper's base; parameters: ln(Em, eta_m, Ek, eta_k) of each."""
 
     isotherms: Vector
 
@@ -277,24 +147,7 @@ class BurgersAtEach:
         return 4 * self.isotherms.size
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
-        """E* of the law and its derivatives.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Parameters.
-        omega : ndarray (n,)
-            Angular frequencies [rad/s].
-        temperature : ndarray (n,)
-            [degC].
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* [Pa].
-        ndarray of complex (n, p)
-            Its derivative with respect to the parameters.
-        """
+        """E* (n,) of the law [Pa] and its derivative (n, p); `omega` (n,) in rad/s, `temperature` (n,) in degC."""
         # A test off its target still has the law of its isotherm: a Burgers law knows no other temperature.
         at = np.abs(temperature[:, None] - self.isotherms).argmin(axis=1)
         em, eta_m, ek, eta_k = np.exp(x.reshape(-1, 4))[at].T
@@ -309,19 +162,6 @@ class BurgersAtEach:
         return modulus, slope
 
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
-        """How far the law is from what mixes are.
-
-        Parameters
-        ----------
-        x : ndarray (p,)
-            Parameters.
-
-        Returns
-        -------
-        ndarray (k,)
-            Residuals of the prior in standard deviations.
-        ndarray (k, p)
-            Their derivative.
-        """
+        """How far the law is from what mixes are: residuals (k,) in standard deviations, and derivative (k, p)."""
         # Keeps a parameter that the data do not see where it is.
         return np.zeros(x.size), 1e-3 * np.eye(x.size)

@@ -27,15 +27,7 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Structure:
-    """A nameless pattern: what an effect outside the catalogue might look like.
-
-    Parameters
-    ----------
-    name : str
-        In words.
-    direction : ndarray of complex (n,)
-        Of ln E*.
-    """
+    """A nameless pattern (n,) of ln E*: what an effect outside the catalogue might look like."""
 
     name: str
     direction: NDArray[np.complex128]
@@ -45,16 +37,8 @@ class Structure:
 class Scores:
     """Score tests of k directions.
 
-    Parameters
-    ----------
-    z : ndarray (k,)
-        Of each.
-    information : ndarray (k,)
-        d.A d.
-    seen : ndarray of bool (k,)
-        Whether the law leaves enough of a direction.
-    correlation : ndarray (k, k)
-        Of the z where nothing is hidden.
+    `z` (k,) of each; `information` (k,) is d.A d; `seen` (k,) says whether the law leaves enough of a direction;
+    `correlation` (k, k) of the z where nothing is hidden.
     """
 
     z: Vector
@@ -66,24 +50,7 @@ class Scores:
 def scores(
     joint: Joint, fitted: Fitted, directions: NDArray[np.complex128], confined: NDArray[np.bool_]
 ) -> Scores:
-    """Score tests of directions.
-
-    Parameters
-    ----------
-    joint : Joint
-        Model of the table.
-    fitted : Fitted
-        Where it stands.
-    directions : ndarray of complex (n, k)
-        Of ln E*.
-    confined : ndarray of bool (k,)
-        To a specimen, so no law takes them.
-
-    Returns
-    -------
-    Scores
-        Of each direction.
-    """
+    """Score tests of directions (n, k) of ln E*; no law takes those `confined` (k,) to a specimen."""
     d = joint.noise.whiten(directions)
     taken = fitted.jacobian.T @ d
     gram = d.T @ d - taken.T @ np.linalg.solve(fitted.precision, taken)
@@ -102,26 +69,7 @@ def scores(
 def largest_by_chance(
     found: Scores, one_sided: NDArray[np.bool_], freedom: int, draws: int, random: np.random.Generator
 ) -> Vector:
-    """Largest of the z that chance alone gives.
-
-    Parameters
-    ----------
-    found : Scores
-        Scores.
-    one_sided : ndarray of bool (k,)
-        Directions that count upwards only.
-    freedom : int
-        Degrees of freedom of the scatter.
-    draws : int
-        How many.
-    random : Generator
-        Whence.
-
-    Returns
-    -------
-    ndarray (draws,)
-        In absolute value, or upwards only.
-    """
+    """Largest z (draws,) by chance alone, absolute or upwards only; `freedom` is that of the scatter."""
     value, vector = np.linalg.eigh(found.correlation)
     # By eigenvalues, since causes that look alike leave the correlation without a Cholesky factor. The symmetric root:
     # signs of eigenvectors are rounding, and with them the draws of a seed would differ between processors.
@@ -133,20 +81,7 @@ def largest_by_chance(
 
 
 def tail(by_chance: Vector, z: float) -> float:
-    """Chance of z or more: the share of draws, and beyond them the normal tail scaled to meet them.
-
-    Parameters
-    ----------
-    by_chance : ndarray (draws,)
-        Of `largest_by_chance`.
-    z : float
-        Found.
-
-    Returns
-    -------
-    float
-        Above zero.
-    """
+    """Chance of z or more, above zero: the share of draws, and beyond them the normal tail scaled to meet them."""
     share = float(np.mean(by_chance >= z))
     # Fewer than ten draws tell a chance to a third at best.
     if share * by_chance.size >= 10:
@@ -156,38 +91,12 @@ def tail(by_chance: Vector, z: float) -> float:
 
 
 def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:
-    """Size of each score, the wrong sign of a one-sided effect counted as nothing.
-
-    Parameters
-    ----------
-    found : Scores
-        Score tests of k directions.
-    one_sided : ndarray of bool (k,)
-        Whether an effect cannot be below zero.
-
-    Returns
-    -------
-    ndarray (k,)
-        |z|, or z above zero.
-    """
+    """Size (k,) of each score: |z|, with the wrong sign of a one-sided effect counted as nothing."""
     return np.where(one_sided, np.maximum(found.z, 0.0), np.abs(found.z))
 
 
 def catalogue_candidates(observed: Observations, catalogue: Sequence[Cause]) -> list[Candidate]:
-    """Every cause at every place with every starting shape, absent (amplitude zero).
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    catalogue : sequence of Cause
-        Causes.
-
-    Returns
-    -------
-    list of Candidate
-        One for each cause, place and shape.
-    """
+    """Every cause at every place with every starting shape, absent (amplitude zero)."""
     return [
         Candidate(cause, place, (0.0, *shape))
         for cause in catalogue
@@ -197,22 +106,7 @@ def catalogue_candidates(observed: Observations, catalogue: Sequence[Cause]) -> 
 
 
 def candidate_directions(joint: Joint, fitted: Fitted, candidates: list[Candidate]) -> NDArray:
-    """Derivatives of ln E* with respect to the amplitudes.
-
-    Parameters
-    ----------
-    joint : Joint
-        Model of the table.
-    fitted : Fitted
-        Where it stands.
-    candidates : list of Candidate (k,)
-        Causes at their places.
-
-    Returns
-    -------
-    ndarray of complex (n, k)
-        In typical units.
-    """
+    """Derivatives (n, k) of ln E* with respect to the amplitudes, in typical units."""
     active = fitted.active
     return (
         np.column_stack(
@@ -224,18 +118,7 @@ def candidate_directions(joint: Joint, fitted: Fitted, candidates: list[Candidat
 
 
 def structures(observed: Observations) -> list[Structure]:
-    """Nameless patterns by frequency, isotherm, specimen, condition and single test.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    list of Structure
-        Of modulus and of phase.
-    """
+    """Nameless patterns of modulus and of phase by frequency, isotherm, specimen, condition and single test."""
     # Centred, so that slopes and bends hold nothing of the level.
     log_f = np.log(observed.frequency) - np.log(observed.frequency).mean()
     above = observed.temperature - observed.temperature.mean()
@@ -262,18 +145,7 @@ def structures(observed: Observations) -> list[Structure]:
 
 
 def structures_of_replicates(observed: Observations) -> list[Structure]:
-    """Nameless patterns by which tests of one condition may differ: one specimen, the course of the tests.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    list of Structure
-        Of modulus and of phase.
-    """
+    """Nameless patterns by which tests of one condition may differ: one specimen, the course of the tests."""
     patterns = {}
     course = observed.order if observed.cycles is None else observed.cycles
     if course is not None:

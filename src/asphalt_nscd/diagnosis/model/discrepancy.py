@@ -35,18 +35,9 @@ LEAST, MOST = 1e-4, 1e7  # variance that is as good as none, and that no table h
 
 @dataclass(frozen=True)
 class Process:
-    """What a process of the discrepancy describes.
+    """What a process of the discrepancy describes: a `kind` of DISCREPANCY, and what alone it reaches.
 
-    Parameters
-    ----------
-    kind : str
-        Of DISCREPANCY.
-    part : str
-        "modulus", "phase", or "both" where causality ties them.
-    isotherm : float, optional
-        What alone it reaches [degC]; None where it reaches all.
-    specimen : str, optional
-        What alone it reaches; None where it reaches all.
+    `part` is "modulus", "phase", or "both" where causality ties them; `isotherm` in degC; None where it reaches all.
     """
 
     kind: str
@@ -59,21 +50,10 @@ class Process:
 class Processes:
     """The m processes of a table, of unit variance in units of the scatter of one test.
 
-    Parameters
-    ----------
-    described : tuple of Process (m,)
-        What each is about.
-    roots : tuple of ndarray of complex (n, rank)
-        Factors of ln E* of each process, real for the modulus and imaginary for the phase.
-    factor : ndarray (2n, q)
-        All of them whitened.
-    block : ndarray of int (q,)
-        Process of each column.
-    usual : ndarray (m,)
-        Usual sizes.
-    spread : ndarray (m,)
-        Standard deviation of the logarithm of a size that is about the usual one, infinite of one that is
-        mostly zero (half-Cauchy).
+    `roots` (n, rank) are factors of ln E* of each process, real for the modulus and imaginary for the phase; `factor`
+    (2n, q) holds all of them whitened, `block` (q,) the process of each column; `usual` (m,) are usual sizes. `spread`
+    (m,) is the standard deviation of the logarithm of a size about the usual one, infinite of one that is mostly zero
+    (half-Cauchy).
     """
 
     described: tuple[Process, ...]
@@ -84,22 +64,7 @@ class Processes:
     spread: Vector
 
     def prior(self, variances: Vector) -> tuple[float, Vector, Vector]:
-        """-2 ln of the prior of the sizes.
-
-        Parameters
-        ----------
-        variances : ndarray (m,)
-            Of the processes.
-
-        Returns
-        -------
-        float
-            Its value.
-        ndarray (m,)
-            First derivatives along the variances.
-        ndarray (m,)
-            Second derivatives.
-        """
+        """-2 ln of the prior of the sizes, and its first and second derivatives (m,) along the variances."""
         away = np.log(variances / self.usual**2)
         about = np.isfinite(self.spread)
         s = np.where(about, 2.0 * self.spread, 1.0) ** 2
@@ -111,18 +76,7 @@ class Processes:
         return float(value.sum()), slope, bend
 
     def beside(self, variances: Vector) -> NDArray:
-        """What the processes add to the scatter.
-
-        Parameters
-        ----------
-        variances : ndarray (m,)
-            Of the processes.
-
-        Returns
-        -------
-        ndarray (2n, r)
-            Factor of the covariance of ln|E*| and of the phase.
-        """
+        """What the processes add to the scatter: factor (2n, r) of the covariance of ln|E*| and of the phase."""
         # Columns of no size would cost as much as others whenever residuals are whitened.
         kept = [
             np.sqrt(variance) * root
@@ -134,20 +88,7 @@ class Processes:
 
 
 def processes(joint: Joint, fitted: Fitted) -> Processes:
-    """The processes that a table may hold; what a specimen's own spectrum does is linearised at the fit.
-
-    Parameters
-    ----------
-    joint : Joint
-        Model of the table.
-    fitted : Fitted
-        Where it stands.
-
-    Returns
-    -------
-    Processes
-        Of unit variance.
-    """
+    """The processes that a table may hold; what a specimen's own spectrum does is linearised at the fit."""
     observed, noise = joint.observed, joint.noise
     described, roots = list[Process](), []
     # The law of a single specimen is its spectrum.
@@ -205,23 +146,10 @@ def _of_specimen(apart: NDArray) -> NDArray:
 
 
 def factor_of(points: NDArray, kernel: Kernel, left_out: float) -> NDArray:
-    """Factor of the correlation between points.
+    """Factor (n, rank) of the correlation between points (n, d), zero where a point is NaN: not reached.
 
-    Tests at one point share a row, so that only distinct points are solved for.
-
-    Parameters
-    ----------
-    points : ndarray (n, d)
-        NaN where a process does not reach.
-    kernel : callable
-        Of the differences (d, m, m).
-    left_out : float
-        Share of the variance of dropped eigenvectors.
-
-    Returns
-    -------
-    ndarray (n, rank)
-        Zero where a point is NaN.
+    Tests at one point share a row, so that only distinct points are solved for. `kernel` is a function of the
+    differences (d, m, m); `left_out` is the share of the variance of dropped eigenvectors.
     """
     rows = np.flatnonzero(np.isfinite(points).all(axis=1))
     distinct, place, count = np.unique(points[rows], axis=0, return_inverse=True, return_counts=True)

@@ -25,20 +25,8 @@ CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy 
 class State:
     """A fit of law and causes beside the discrepancy, and the model linearised there.
 
-    Parameters
-    ----------
-    plain : Joint
-        The joint model whose noise is the scatter alone.
-    wide : Joint
-        With the discrepancy.
-    fitted : Fitted
-        Under wide.
-    linear : Fitted
-        Under plain, at the same parameters.
-    model : Reduced
-        Reduced to the processes.
-    variances : ndarray (m,)
-        Of the processes.
+    The noise of `plain` is the scatter alone, that of `wide` has the discrepancy too; `fitted` is under wide, `linear`
+    under plain at the same parameters; `model` is reduced to the processes, of `variances` (m,).
     """
 
     plain: Joint
@@ -62,20 +50,7 @@ class State:
 
 
 def begin(plain: Joint, fitted: Fitted) -> State:
-    """Law and discrepancy with the causes of the fit, mostly none.
-
-    Parameters
-    ----------
-    plain : Joint
-        The joint model whose noise is the scatter alone.
-    fitted : Fitted
-        Where it stands.
-
-    Returns
-    -------
-    State
-        The first state.
-    """
+    """Fit law and discrepancy with the causes of the fit, mostly none; the noise of `plain` is the scatter alone."""
     found = discrepancy.processes(plain, fitted)
     likeliest_there = likelihood.estimate(likelihood.reduce(found, fitted)).variances
     # A discrepancy takes up what a rough law does not follow, and keeps it: from either side.
@@ -85,46 +60,14 @@ def begin(plain: Joint, fitted: Fitted) -> State:
 
 
 def with_causes(state: State, active: tuple[Candidate, ...]) -> State:
-    """Fitted anew with other causes.
-
-    Parameters
-    ----------
-    state : State
-        To start from.
-    active : tuple of Candidate
-        The causes.
-
-    Returns
-    -------
-    State
-        With them.
-    """
+    """Fit anew with other causes."""
     return settle(state.plain, state.model.processes, state.fitted, active, state.variances)
 
 
 def settle(
     plain: Joint, found: Processes, at: Fitted, active: tuple[Candidate, ...], variances: Vector
 ) -> State:
-    """Law, causes and discrepancy fitted in turn from where they stand.
-
-    Parameters
-    ----------
-    plain : Joint
-        The joint model whose noise is the scatter alone.
-    found : Processes
-        Of the discrepancy.
-    at : Fitted
-        Law and scales to start from.
-    active : tuple of Candidate
-        The causes.
-    variances : ndarray (m,)
-        Of the processes, to start from.
-
-    Returns
-    -------
-    State
-        Fitted.
-    """
+    """Fit law, causes and discrepancy in turn, from the law and scales of `at` and `variances` (m,)."""
     law, scales = at.law, at.scales
     for _ in range(SETTLED):
         noise = plain.noise.beside(found.beside(variances))
@@ -138,44 +81,15 @@ def settle(
 
 
 def likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
-    """The likeliest of several answers.
-
-    Parameters
-    ----------
-    model : Reduced
-        Of `likelihood.reduce`.
-    variances : ndarray (m,)
-        Where to start, among other places.
-    cause : Direction, optional
-        One direction that is in the model, or none.
-
-    Returns
-    -------
-    Estimate
-        Of the least misfit.
-    """
+    """The likeliest of several answers: of the least misfit."""
     return min(answers(model, variances, cause), key=lambda estimate: estimate.misfit)
 
 
 def answers(model: Reduced, variances: Vector, cause: Direction | None = None) -> Iterator[Estimate]:
-    """Of several starts, the quickest first.
+    """Estimates from several starts, the quickest first; `variances` (m,) is one of the starts.
 
     Which of three specimens is odd, or a phase that is off at every frequency for a modulus that is, may be told in two
     ways, and one start finds one of them.
-
-    Parameters
-    ----------
-    model : Reduced
-        Of `likelihood.reduce`.
-    variances : ndarray (m,)
-        Where to start, among other places.
-    cause : Direction, optional
-        One direction that is in the model, or none.
-
-    Yields
-    ------
-    Estimate
-        Of one start.
     """
     uncommon = np.where(
         [one.kind == "all" for one in model.processes.described], discrepancy.LEAST, variances
@@ -185,18 +99,7 @@ def answers(model: Reduced, variances: Vector, cause: Direction | None = None) -
 
 
 def smoothed(state: State) -> State:
-    """The same with the roughness of the law that is likeliest beside the discrepancy.
-
-    Parameters
-    ----------
-    state : State
-        To start from.
-
-    Returns
-    -------
-    State
-        Fitted anew.
-    """
+    """Fit anew with the roughness of the law that is likeliest beside the discrepancy."""
     for _ in range(SMOOTHED):
         before = state
         wide, fitted = of_likeliest_roughness(state.wide, state.fitted, CONVERGED)
@@ -208,20 +111,7 @@ def smoothed(state: State) -> State:
 
 
 def afresh(state: State, active: tuple[Candidate, ...]) -> State:
-    """Law and causes fitted before there is a discrepancy, which else keeps what it took up without them.
-
-    Parameters
-    ----------
-    state : State
-        Whose table and scales.
-    active : tuple of Candidate
-        The causes.
-
-    Returns
-    -------
-    State
-        Fitted anew.
-    """
+    """Fit law and causes before there is a discrepancy, which else keeps what it took up without them."""
     laws = [state.fitted.law, *first_laws(state.plain)]
     fits = [state.plain.fit(law, state.fitted.scales, active, CONVERGED) for law in laws]
     fitted = min(fits, key=lambda one: one.objective)
@@ -233,24 +123,7 @@ def afresh(state: State, active: tuple[Candidate, ...]) -> State:
 def of_taken(
     state: State, candidate: Candidate, rows: NDArray | None = None, sizes_too: bool = False
 ) -> Estimate:
-    """Amplitude of a cause that is in the fit, in typical units.
-
-    Parameters
-    ----------
-    state : State
-        The fit.
-    candidate : Candidate
-        The cause.
-    rows : ndarray of int (r,), optional
-        Tests that alone are counted; all if None.
-    sizes_too : bool
-        Whether its standard error holds what is not known of the discrepancy's sizes.
-
-    Returns
-    -------
-    Estimate
-        Of the cause.
-    """
+    """Amplitude of a cause in the fit, in typical units; `sizes_too` adds the error of the discrepancy's sizes."""
     first = state.fitted.place_of(candidate.key)
     plain, model, linear = state.plain, state.model, state.linear
     if rows is not None:
@@ -273,26 +146,7 @@ def of_taken(
 
 
 def of_rows(found: Processes, plain: Joint, rows: NDArray, variances: Vector) -> tuple[Processes, Vector]:
-    """The processes of some rows, those that reach none of them left out.
-
-    Parameters
-    ----------
-    found : Processes
-        Of all rows.
-    plain : Joint
-        Of the rows.
-    rows : ndarray of int (r,)
-        Which.
-    variances : ndarray (m,)
-        Of all processes.
-
-    Returns
-    -------
-    Processes
-        That are left.
-    ndarray
-        Their variances.
-    """
+    """The processes of some rows (r,) and their variances, without those that reach none of the rows."""
     kept = [k for k, root in enumerate(found.roots) if np.abs(root[rows]).max() > 0.0]
     roots = tuple(found.roots[k][rows] for k in kept)
     factor = np.hstack([plain.noise.whiten(root) for root in roots])
@@ -308,21 +162,7 @@ def of_shapes(fitted: Fitted, candidate: Candidate, observed: Observations) -> f
     """What the freedom of a cause's shapes costs: -2 ln of the share of their prior that tests leave them (Laplace).
 
     The prior is about as wide as the fit's about each start. The share is that given the amplitude, whose own error is
-    counted with its own prior.
-
-    Parameters
-    ----------
-    fitted : Fitted
-        A fit with the cause.
-    candidate : Candidate
-        The cause.
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    float
-        In units of -2 ln likelihood; zero for a cause without shapes of its own.
+    counted with its own prior. Zero for a cause without shapes.
     """
     if not candidate.shaped:
         return 0.0

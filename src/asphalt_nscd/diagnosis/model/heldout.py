@@ -19,20 +19,7 @@ class HeldOut:
     _made: dict[tuple[int, str], Complex] = field(default_factory=dict)
 
     def predictions(self, fitted: Fitted, part: str) -> Complex:
-        """Each row from a fit without the rows that share its part.
-
-        Parameters
-        ----------
-        fitted : Fitted
-            To start from.
-        part : str
-            "isotherm" or "frequency".
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            ln E*.
-        """
+        """ln E* (n,) of each row from a fit without the rows that share its `part`, "isotherm" or "frequency"."""
         # By identity, for arrays have no hash.
         key = id(fitted), part
         if key not in self._made:

@@ -29,17 +29,7 @@ NEAR = 0.01  # the same where a fit is only to predict what was left out of it
 
 @dataclass(frozen=True)
 class Candidate:
-    """A cause at a place.
-
-    Parameters
-    ----------
-    cause : Cause
-        Which.
-    place : Place
-        A specimen, an isotherm [degC], or None: all tests.
-    values : tuple of float
-        Of its parameters, in their units.
-    """
+    """A cause with its values, in their units, at a place: a specimen, an isotherm [degC], or None for all tests."""
 
     cause: Cause
     place: Place
@@ -70,18 +60,7 @@ class Candidate:
         ]
 
     def with_values(self, values: Vector) -> Candidate:
-        """The same candidate with other parameters.
-
-        Parameters
-        ----------
-        values : ndarray (p,)
-            In their units.
-
-        Returns
-        -------
-        Candidate
-            Another one.
-        """
+        """The same candidate with other parameters (p,) in their units."""
         return replace(self, values=tuple(float(v) for v in values))
 
 
@@ -89,26 +68,9 @@ class Candidate:
 class Fitted:
     """A joint fit.
 
-    Parameters
-    ----------
-    law : ndarray
-        Parameters of the base.
-    scales : ndarray (S,)
-        ln of the specimens' scales.
-    active : tuple of Candidate
-        Causes, with their values.
-    objective : float
-        Squares of whitened residuals and priors.
-    modelled : ndarray of complex (n,)
-        ln E*.
-    residual : ndarray (2n,)
-        Whitened.
-    jacobian : ndarray (2n, p)
-        Whitened.
-    precision : ndarray (p, p)
-        Of the parameters.
-    gradient : ndarray (p,)
-        Of half the objective, downwards; zero at the best fit.
+    `law` are the parameters of the base; `scales` (S,) ln of the specimens' scales; `objective` the squares of whitened
+    residuals and priors; `modelled` (n,) ln E*; `residual` (2n,) and `jacobian` (2n, p) are whitened; `precision`
+    (p, p). `gradient` (p,) of half the objective, downwards, is zero at the best fit.
     """
 
     law: Vector
@@ -127,34 +89,12 @@ class Fitted:
         return np.linalg.inv(self.precision)
 
     def place_of(self, key: tuple[str, Place]) -> int:
-        """Where the parameters of a cause begin among all.
-
-        Parameters
-        ----------
-        key : tuple
-            Of a cause that is in the fit.
-
-        Returns
-        -------
-        int
-            Column of the Jacobian.
-        """
+        """Column of the Jacobian at which the parameters of a cause in the fit begin."""
         number = [one.key for one in self.active].index(key)
         return self.law.size + self.scales.size + sum(len(one.values) for one in self.active[:number])
 
     def fixed(self, places: int | Sequence[int]) -> Fitted:
-        """The same with some parameters fixed where they stand.
-
-        Parameters
-        ----------
-        places : int or sequence of int
-            Columns of the Jacobian.
-
-        Returns
-        -------
-        Fitted
-            Without them in its derivatives.
-        """
+        """The same with the parameters at some columns of the Jacobian fixed where they stand, without derivatives."""
         return replace(
             self,
             jacobian=np.delete(self.jacobian, places, axis=1),
@@ -164,17 +104,7 @@ class Fitted:
 
 
 class Joint:
-    """The joint model of one table.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    base : Base
-        Law of the mix.
-    noise : Noise
-        Scatter of the tests.
-    """
+    """The joint model of one table: law of the mix, causes and scatter of the tests."""
 
     def __init__(self, observed: Observations, base: Base, noise: Noise) -> None:
         self.observed, self.base, self.noise = observed, base, noise
@@ -191,24 +121,7 @@ class Joint:
     def apparent(
         self, law: Vector, active: tuple[Candidate, ...], scales: Vector | None = None
     ) -> tuple[Complex, Complex]:
-        """Apparent E* with causes.
-
-        Parameters
-        ----------
-        law : ndarray (p,)
-            Parameters of the base.
-        active : tuple of Candidate
-            Causes, with their values.
-        scales : ndarray (S,), optional
-            ln of the specimens' scales; none: 0.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            E* [Pa].
-        ndarray of complex (n, p + S)
-            Its derivatives with respect to law and scales.
-        """
+        """Apparent E* (n,) with causes [Pa], and its derivatives (n, p + S) by law (p,) and ln of scales (S,)."""
         observed = self.observed
         modulus, slope = self._unscaled(law, active)
         # The scale belongs to the specimen: what the head adds, a mass say, is not scaled with it.
@@ -256,26 +169,7 @@ class Joint:
     def direction(
         self, law: Vector, scales: Vector, active: tuple[Candidate, ...], index: int, parameter: int
     ) -> Complex:
-        """Derivative of ln E* with respect to one parameter of a cause.
-
-        Parameters
-        ----------
-        law : ndarray (p,)
-            Parameters of the base.
-        scales : ndarray (S,)
-            ln of the specimens' scales.
-        active : tuple of Candidate
-            Causes, with their values.
-        index : int
-            Which cause.
-        parameter : int
-            Which of its parameters.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            In typical units.
-        """
+        """Derivative (n,) of ln E* by one parameter of the cause at `index`, in typical units."""
         typical = active[index].typical
         low_high = []
         # central differences, which err by the square of the step
@@ -287,22 +181,7 @@ class Joint:
         return np.asarray(np.log(low_high[1] / low_high[0]) / 2e-3, complex)
 
     def linearise(self, law: Vector, scales: Vector, active: tuple[Candidate, ...]) -> Fitted:
-        """Objective and derivatives where the parameters stand.
-
-        Parameters
-        ----------
-        law : ndarray
-            Parameters of the base.
-        scales : ndarray (S,)
-            ln of the specimens' scales.
-        active : tuple of Candidate
-            Causes, with their values.
-
-        Returns
-        -------
-        Fitted
-            Not moved.
-        """
+        """Objective and derivatives where the parameters stand: `law`, `scales` (S,) in ln, causes with values."""
         modulus, slope = self.apparent(law, active, scales)
         modelled = np.log(np.abs(modulus)) + 1j * np.angle(modulus)
         causes = [
@@ -338,36 +217,12 @@ class Joint:
         )
 
     def predict(self, fitted: Fitted) -> Complex:
-        """These observations from a fit to others of the same specimens.
-
-        Parameters
-        ----------
-        fitted : Fitted
-            To the others.
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            ln E*.
-        """
+        """ln E* (n,) of these observations from a fit to others of the same specimens."""
         modulus = self.apparent(fitted.law, fitted.active, fitted.scales)[0]
         return np.log(np.abs(modulus)) + 1j * np.angle(modulus)
 
     def without(self, rows: NDArray[np.int64], fitted: Fitted) -> Fitted:
-        """The fit repeated without some rows; a cause that reaches no other row is absent from it.
-
-        Parameters
-        ----------
-        rows : ndarray of int
-            Left out.
-        fitted : Fitted
-            To start from.
-
-        Returns
-        -------
-        Fitted
-            To the other rows.
-        """
+        """Repeat the fit without some rows; a cause that reaches no other row is absent from it."""
         kept = np.setdiff1d(np.arange(self.observed.size), rows)
         part = Joint(self.observed.subset(kept), self.base, self.noise.subset(kept))
         active = tuple(c for c in fitted.active if c.cause.rows(part.observed, c.place).any())
@@ -376,25 +231,10 @@ class Joint:
     def fit(
         self, law: Vector, scales: Vector, active: tuple[Candidate, ...] = (), converged: float = CONVERGED
     ) -> Fitted:
-        """Levenberg-Marquardt from where the parameters stand; bounds of causes are respected.
+        """Fit by Levenberg-Marquardt from where the parameters stand; bounds of causes are respected.
 
-        A step to where the model overflows counts as one that gains nothing.
-
-        Parameters
-        ----------
-        law : ndarray
-            Parameters of the base.
-        scales : ndarray (S,)
-            ln of the specimens' scales.
-        active : tuple of Candidate
-            Causes, with their values.
-        converged : float
-            Change of the objective that ends it.
-
-        Returns
-        -------
-        Fitted
-            The best fit.
+        A step to where the model overflows counts as one that gains nothing. `scales` (S,) are ln of the specimens'
+        scales; `converged` is the change of the objective that ends the fit.
         """
         now = self.linearise(law, scales, active)
         damping = 1e-3

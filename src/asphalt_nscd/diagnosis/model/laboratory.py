@@ -26,33 +26,12 @@ STEP = 0.05  # K or of ln time, of a derivative
 
 @dataclass(frozen=True)
 class Laboratory:
-    """Sizes of the effects of LABORATORY in a table.
-
-    Parameters
-    ----------
-    sizes : dict of str to float
-        In their units.
-    """
+    """Sizes of the effects of LABORATORY in a table, in their units."""
 
     sizes: dict[str, float]
 
     def factor(self, joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> NDArray[np.complex128]:
-        """What the laboratory adds to the scatter.
-
-        Parameters
-        ----------
-        joint : Joint
-            Model of the table.
-        at : Fitted
-            Where it is linearised.
-        mounting : ndarray of int (n,)
-            Number of the specimen's isotherm of each test.
-
-        Returns
-        -------
-        ndarray of complex (n, q)
-            Factor of the covariance of ln E*.
-        """
+        """Factor (n, q) of the covariance of ln E* that the laboratory adds; `mounting` (n,) numbers mountings."""
         # A second specimen, of which a next test is, brings what a single one has not.
         roots = _roots(joint, at, mounting).items()
         own = [self.sizes.get(kind, LABORATORY[kind].size) * root for kind, root in roots]
@@ -60,22 +39,7 @@ class Laboratory:
 
 
 def processes(joint: Joint, fitted: Fitted) -> tuple[Processes, tuple[str, ...]]:
-    """What the laboratory adds, in its usual sizes, beside the discrepancy.
-
-    Parameters
-    ----------
-    joint : Joint
-        Whose noise is the scatter of single tests.
-    fitted : Fitted
-        Where it stands.
-
-    Returns
-    -------
-    Processes
-        Of the discrepancy, then of each effect.
-    tuple of str
-        The effects, of LABORATORY.
-    """
+    """Processes of the discrepancy, then of what the laboratory adds in its usual sizes, and names of the latter."""
     own = {
         kind: LABORATORY[kind].size * root for kind, root in _roots(joint, fitted, joint.noise.block).items()
     }
@@ -97,20 +61,7 @@ def processes(joint: Joint, fitted: Fitted) -> tuple[Processes, tuple[str, ...]]
 
 
 def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
-    """Sizes in a table, beside the discrepancy.
-
-    Parameters
-    ----------
-    joint : Joint
-        Whose noise is the scatter of single tests.
-    fitted : Fitted
-        Where it stands.
-
-    Returns
-    -------
-    Laboratory
-        Sizes.
-    """
+    """Sizes of the laboratory's effects beside the discrepancy; the noise is the scatter of single tests."""
     found, kinds = processes(joint, fitted)
     variances = likelihood.estimate(likelihood.reduce(found, fitted)).variances[-len(kinds) :]
     return Laboratory(
@@ -119,42 +70,14 @@ def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
 
 
 def of_single_tests(joint: Joint, fitted: Fitted) -> Joint:
-    """The model whose noise is the scatter of single tests and the temperatures of isotherms, whose size is stated.
-
-    Parameters
-    ----------
-    joint : Joint
-        With or without what else the laboratory adds.
-    fitted : Fitted
-        Where it stands.
-
-    Returns
-    -------
-    Joint
-        Without it.
-    """
+    """The model whose noise is the scatter of single tests and the temperatures of isotherms, whose size is stated."""
     # What a block shares is its mounting's: it is not counted twice.
     alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared), discrepancy=None)
     return Joint(joint.observed, joint.base, alone.beside(_parts(_of_isotherm(joint, fitted))))
 
 
 def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | None]:
-    """The model with what the laboratory adds to the scatter.
-
-    Parameters
-    ----------
-    joint : Joint
-        Whose noise is the scatter of single tests.
-    fitted : Fitted
-        Where it stands.
-
-    Returns
-    -------
-    Joint
-        With it; without it where there is but one isotherm.
-    Laboratory or None
-        What it adds.
-    """
+    """The model with what the laboratory adds to the scatter, and that; unchanged, and None, with one isotherm."""
     # On one isotherm a mounting is the level of its specimen, and a temperature belongs to the law.
     if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
         return joint, None

@@ -27,35 +27,14 @@ CONVERGED = 0.05  # change of -2 ln likelihood
 
 @dataclass(frozen=True)
 class Reduced:
-    """Scatter and law taken out, with A = V0^-1 and data y.
-
-    Parameters
-    ----------
-    processes : Processes
-        Of the table.
-    gram : ndarray (q, q)
-        U^T A U.
-    along : ndarray (q,)
-        U^T A y.
-    """
+    """Scatter and law taken out, with A = V0^-1 and data y: `gram` (q, q) is U^T A U, `along` (q,) is U^T A y."""
 
     processes: Processes
     gram: NDArray
     along: Vector
 
     def only(self, kept: NDArray[np.bool_]) -> Reduced:
-        """With some of the processes alone.
-
-        Parameters
-        ----------
-        kept : ndarray of bool (m,)
-            Which.
-
-        Returns
-        -------
-        Reduced
-            Of these.
-        """
+        """The same with some of the processes (m,) alone."""
         found, columns = self.processes, kept[self.processes.block]
         less = Processes(
             tuple(one for one, stays in zip(found.described, kept, strict=True) if stays),
@@ -70,52 +49,23 @@ class Reduced:
 
 @dataclass(frozen=True)
 class Direction:
-    """Directions d (2n, k) in the same form.
-
-    Parameters
-    ----------
-    cross : ndarray (q, k)
-        U^T A d.
-    own : ndarray (k, k)
-        d^T A d.
-    along : ndarray (k,)
-        d^T A y.
-    """
+    """Directions d (2n, k) in the same form: `cross` (q, k) U^T A d, `own` (k, k) d^T A d, `along` (k,) d^T A y."""
 
     cross: NDArray
     own: NDArray
     along: Vector
 
     def column(self, k: int) -> Direction:
-        """One of them alone.
-
-        Parameters
-        ----------
-        k : int
-            Which.
-
-        Returns
-        -------
-        Direction
-            Of one column.
-        """
+        """One of the directions alone."""
         return Direction(self.cross[:, [k]], self.own[[k]][:, [k]], self.along[[k]])
 
 
 @dataclass(frozen=True)
 class Estimate:
-    """Variances of the processes, and the amplitude of the cause that was in the model.
+    """Variances (m,) of the processes, and the amplitude of the cause that was in the model.
 
-    Parameters
-    ----------
-    variances : ndarray (m,)
-        v.
-    misfit : float
-        -2 ln of the penalised likelihood, the cause at its best.
-    amplitude : float
-        Of the cause, in units of its direction; zero without one.
-    std_error : float
-        Of the amplitude; infinite without a cause.
+    `misfit` is -2 ln of the penalised likelihood, the cause at its best; `amplitude`, in units of its direction, is
+    zero and `std_error` infinite without a cause.
     """
 
     variances: Vector
@@ -130,65 +80,20 @@ class Estimate:
 
 
 def reduce(found: Processes, fitted: Fitted) -> Reduced:
-    """The model linearised at a fit, whitened by the scatter alone.
-
-    Parameters
-    ----------
-    found : Processes
-        Processes of the table.
-    fitted : Fitted
-        Where the model stands.
-
-    Returns
-    -------
-    Reduced
-        All that an estimate needs of the table.
-    """
+    """The model linearised at a fit, whitened by the scatter alone and reduced to all that an estimate needs."""
     gram = _projected(fitted, found.factor, found.factor)
     return Reduced(found, 0.5 * (gram + gram.T), _data(fitted, found.factor))
 
 
 def directions(model: Reduced, fitted: Fitted, d: NDArray) -> Direction:
-    """Whitened directions of causes.
-
-    Parameters
-    ----------
-    model : Reduced
-        Of `reduce`.
-    fitted : Fitted
-        Where the model stands.
-    d : ndarray (2n, k)
-        Directions.
-
-    Returns
-    -------
-    Direction
-        In the same form.
-    """
+    """Directions (2n, k) of causes, whitened and reduced as the model is."""
     return Direction(
         _projected(fitted, model.processes.factor, d), _projected(fitted, d, d), _data(fitted, d)
     )
 
 
 def moved(model: Reduced, cause: Direction, amount: float) -> tuple[Reduced, Direction]:
-    """The same with so much of an effect added to the data.
-
-    Parameters
-    ----------
-    model : Reduced
-        Of `reduce`.
-    cause : Direction
-        One direction.
-    amount : float
-        Of it.
-
-    Returns
-    -------
-    Reduced
-        Moved.
-    Direction
-        Moved.
-    """
+    """The same with so much of an effect, in units of its direction, added to the data."""
     return (
         replace(model, along=model.along + amount * cause.cross[:, 0]),
         replace(cause, along=cause.along + amount * cause.own[:, 0]),
@@ -209,21 +114,9 @@ def _data(fitted: Fitted, left: NDArray) -> Vector:
 
 
 def estimate(model: Reduced, cause: Direction | None = None, start: Vector | None = None) -> Estimate:
-    """Penalised restricted likelihood: multiplicative steps (Zhou et al. 2019), extrapolated (SQUAREM).
+    """Maximise the penalised restricted likelihood by multiplicative steps (Zhou et al. 2019), extrapolated (SQUAREM).
 
-    Parameters
-    ----------
-    model : Reduced
-        Of `reduce`.
-    cause : Direction, optional
-        One direction that is in the model, or none.
-    start : ndarray (m,), optional
-        Variances to start from; the usual ones if None.
-
-    Returns
-    -------
-    Estimate
-        Variances, and the amplitude of the cause.
+    `start` (m,) are variances, the usual ones if None; `cause` is one direction that is in the model, or none.
     """
     lowest, highest = np.log(LEAST), np.log(MOST)
     usual = model.processes.usual
@@ -254,22 +147,7 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
 def with_uncertain_sizes(model: Reduced, cause: Direction, found: Estimate) -> Estimate:
     """The same with a standard error that holds what is not known of the variances (Kackar and Harville 1984).
 
-    Their covariance is that of the curvature of the objective; what the table does not tell is held to a
-    factor.
-
-    Parameters
-    ----------
-    model : Reduced
-        Of `reduce`.
-    cause : Direction
-        One direction.
-    found : Estimate
-        Of `estimate`.
-
-    Returns
-    -------
-    Estimate
-        With a larger standard error.
+    Their covariance is that of the curvature of the objective; what the table does not tell is held to a factor.
     """
     curvature, along = _curvature(model, cause, found.variances)
     value, vector = np.linalg.eigh(0.5 * curvature)  # half of it, for -2 ln likelihood
@@ -365,48 +243,14 @@ def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:
 
 
 def correlation(model: Reduced, all_directions: Direction, variances: Vector) -> tuple[NDArray, Vector]:
-    """How directions hang together where nothing is hidden.
-
-    Parameters
-    ----------
-    model : Reduced
-        Of `reduce`.
-    all_directions : Direction
-        k of them.
-    variances : ndarray (m,)
-        Of the processes.
-
-    Returns
-    -------
-    ndarray (k, k)
-        Correlation of their z.
-    ndarray (k,)
-        Their standard errors.
-    """
+    """How k directions hang together where nothing is hidden: correlation (k, k) of their z, standard errors (k,)."""
     information, _ = weighed(model, all_directions, variances)
     size = np.sqrt(np.maximum(np.diag(information), 1e-300))
     return information / size[:, None] / size, 1.0 / size
 
 
 def weighed(model: Reduced, all_directions: Direction, variances: Vector) -> tuple[NDArray, Vector]:
-    """What a table says of the amplitudes of directions, law and discrepancy integrated out.
-
-    Parameters
-    ----------
-    model : Reduced
-        Of `reduce`.
-    all_directions : Direction
-        k of them.
-    variances : ndarray (m,)
-        Of the processes.
-
-    Returns
-    -------
-    ndarray (k, k)
-        Information.
-    ndarray (k,)
-        Score.
-    """
+    """Information (k, k) and score (k,) of the amplitudes of k directions, law and discrepancy integrated out."""
     s = np.sqrt(variances)[model.processes.block]
     lower, _ = _factor(model, s)
     half = solve_triangular(lower, s[:, None] * all_directions.cross, lower=True, check_finite=False)

@@ -22,24 +22,7 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
 def log_odds(candidate: Candidate, observed: Observations, gain: float, std_error: float) -> float:
-    """ln of the odds of a cause at its place over none.
-
-    Parameters
-    ----------
-    candidate : Candidate
-        The cause.
-    observed : Observations
-        Measured tests.
-    gain : float
-        Of -2 ln likelihood at its best size.
-    std_error : float
-        Of its amplitude; both with its other parameters fitted.
-
-    Returns
-    -------
-    float
-        Natural logarithm.
-    """
+    """ln odds of a cause at its place over none; `gain` of -2 ln likelihood, other parameters fitted."""
     expected = EXPECTED[candidate.cause.name]
     places = len(candidate.cause.places(observed))
     return odds_of(expected, places, candidate.values[0], std_error, gain, candidate.cause.one_sided)
@@ -50,25 +33,8 @@ def odds_of(
 ) -> float:
     """ln of the odds of an effect of this size, in the unit of what is expected, at one of several places.
 
-    Parameters
-    ----------
-    expected : Expected
-        Chance that a campaign has the cause, and its usual size.
-    places : int
-        How many places share this chance.
-    size : float
-        Amplitude, in the unit of the usual size.
-    std_error : float
-        Of it; taken as the usual size where it is larger.
-    gain : float
-        Twice the gain of the log likelihood over none.
-    one_sided : bool
-        Whether only one sign can be; the prior density is then twice as large.
-
-    Returns
-    -------
-    float
-        Gain / 2 + ln(p(a) sqrt(2 pi) std_error) + ln of the prior odds.
+    Gain / 2 + ln(p(a) sqrt(2 pi) std_error) + ln of the prior odds; `gain` is twice the gain of the log likelihood over
+    none. `std_error` counts as the usual size where it is larger; if `one_sided`, the prior density is twice as large.
     """
     ways = 2.0 if one_sided else 1.0  # one sign alone has twice the density
     density = ways / (np.pi * expected.size * (1.0 + (size / expected.size) ** 2))
@@ -81,39 +47,15 @@ def odds_of(
 
 
 def shares(odds: Sequence[float]) -> NDArray[np.float64]:
-    """Probability of each of several names of which at most one holds.
-
-    Parameters
-    ----------
-    odds : sequence of float (k,)
-        ln odds of each over none.
-
-    Returns
-    -------
-    ndarray (k,)
-        Together at most 1.
-    """
+    """Probability (k,) of each of several names of which at most one holds, from ln odds (k,) over none."""
     return np.asarray(np.exp(np.array(odds) - logsumexp([0.0, *odds])))
 
 
 def stated(modelled: float, established: bool, doubted: bool) -> float:
-    """Probability of a name as it is stated: the share of names like it that are right in drawn tables.
+    """Probability of a name as stated, at most the model's: the share of names like it that are right in drawn tables.
 
-    A doubt halves what its ln odds exceed HALF_FROM by.
-
-    Parameters
-    ----------
-    modelled : float
-        Probability that the model gives the name.
-    established : bool
-        Whether the name is.
-    doubted : bool
-        Whether an effect that the catalogue lacks may stand behind it (`diagnosis.search.doubts`).
-
-    Returns
-    -------
-    float
-        At most that of the model.
+    A doubt, that an effect outside the catalogue stands behind it (`diagnosis.search.doubts`), halves what its ln odds
+    exceed HALF_FROM by.
     """
     most = min(modelled, SUREST[established])
     if not doubted:

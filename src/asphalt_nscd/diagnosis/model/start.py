@@ -27,24 +27,7 @@ WLF_STARTS = ((12.0, 60.0), (12.0, 100.0), (20.0, 200.0), (30.0, 280.0))  # C1, 
 def fit_spectrum(
     observed: Observations, noise: Noise, active: tuple[Candidate, ...] = ()
 ) -> tuple[Joint, Fitted]:
-    """The flexible spectrum, of the roughness of largest marginal likelihood (Laplace).
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    noise : Noise
-        Their scatter.
-    active : tuple of Candidate
-        Causes in the fit.
-
-    Returns
-    -------
-    Joint
-        The model.
-    Fitted
-        Its fit.
-    """
+    """Fit the flexible spectrum, of the roughness of largest marginal likelihood (Laplace); `active` causes are in."""
     best: tuple[float, Joint, Fitted] | None = None
     # Least squares on so many elements has poor local minima: several starts.
     for c1, c2 in WLF_STARTS:
@@ -62,24 +45,7 @@ def fit_spectrum(
 def of_likeliest_roughness(
     joint: Joint, fitted: Fitted, converged: float = CONVERGED
 ) -> tuple[Joint, Fitted]:
-    """The roughness of largest marginal likelihood, each fitted from where the one before ended.
-
-    Parameters
-    ----------
-    joint : Joint
-        The model.
-    fitted : Fitted
-        Where it stands.
-    converged : float
-        Change of the objective that ends a fit.
-
-    Returns
-    -------
-    Joint
-        The model.
-    Fitted
-        Its fit.
-    """
+    """Find the roughness of largest marginal likelihood, each fitted from where the one before ended."""
     scored = []
     for roughness in ROUGHNESS:
         # from smooth to rough, each from the fit before, so that it starts near its end
@@ -90,57 +56,18 @@ def of_likeliest_roughness(
 
 
 def marginal_likelihood(joint: Joint, fitted: Fitted) -> float:
-    """ln of the marginal likelihood by Laplace's approximation, up to what does not depend on the roughness.
-
-    Parameters
-    ----------
-    joint : Joint
-        Whose flexible spectrum has the roughness.
-    fitted : Fitted
-        Its fit: objective (-2 ln L with the priors) and precision.
-
-    Returns
-    -------
-    float
-        The larger, the likelier is this roughness.
-    """
+    """ln of the marginal likelihood by Laplace's approximation, up to what does not depend on the roughness."""
     sign, curvature = np.linalg.slogdet(fitted.precision)
     return -0.5 * (fitted.objective + curvature + price_of_roughness(joint.spectrum))
 
 
 def price_of_roughness(spectrum: FlexibleSpectrum) -> float:
-    """-2 ln of what the width of a law's prior costs it: else the roughest would always win.
-
-    Parameters
-    ----------
-    spectrum : FlexibleSpectrum
-        Whose m - 2 second differences have this prior.
-
-    Returns
-    -------
-    float
-        Up to what does not depend on the roughness.
-    """
+    """-2 ln of what a prior's width costs its law, up to a constant: else the roughest would always win."""
     return float(2.0 * (spectrum.times.size - 2) * np.log(spectrum.roughness))
 
 
 def fit_burgers_at_each(observed: Observations, noise: Noise) -> tuple[Joint, Fitted]:
-    """A Burgers law for each temperature, the paper's baseline.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    noise : Noise
-        Their scatter.
-
-    Returns
-    -------
-    Joint
-        The model.
-    Fitted
-        Its fit.
-    """
+    """Fit a Burgers law for each temperature, the paper's baseline."""
     base = BurgersAtEach(observed.isotherms)
     law = [
         _first_burgers(observed.omega[at], observed.modulus[at])
@@ -182,18 +109,7 @@ def _spectrum(observed: Observations, c1: float, c2: float) -> FlexibleSpectrum:
 
 
 def first_laws(joint: Joint) -> Iterator[Vector]:
-    """Where fits of a law may begin: at each of WLF_STARTS.
-
-    Parameters
-    ----------
-    joint : Joint
-        Model of the table.
-
-    Returns
-    -------
-    iterator of ndarray (p,)
-        Parameters of the law.
-    """
+    """Parameters (p,) from which fits of a law may begin: at each of WLF_STARTS."""
     for c1, c2 in WLF_STARTS:
         yield _first_law(joint.observed, joint.spectrum, c1, c2)
 

@@ -18,20 +18,7 @@ Orders = list[dict[str, Any]]
 
 
 def gauges(done: Observations, costs: Costs) -> Orders:
-    """Tests again after a check, of specimens beyond a quality limit that half of all tests exceed or more.
-
-    Parameters
-    ----------
-    done : Observations
-        The tests there are.
-    costs : Costs
-        Machine hours.
-
-    Returns
-    -------
-    Orders
-        None where none is.
-    """
+    """Order tests again after a check, of specimens beyond a quality limit that half of all tests or more exceed."""
     above = quality.exceeded(done)
     orders: Orders = []
     for name, limit in quality.LIMITS.items():
@@ -54,22 +41,7 @@ def gauges(done: Observations, costs: Costs) -> Orders:
 
 
 def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
-    """Metal, where the phases lie on one side of what |E*| requires, and no cause explains it.
-
-    Parameters
-    ----------
-    done : Observations
-        The tests there are.
-    costs : Costs
-        Machine hours.
-    one_sided : str
-        On which side, in words.
-
-    Returns
-    -------
-    Orders
-        One order.
-    """
+    """Order a test of metal: phases lie on one side (`one_sided`, in words) of what |E*| requires, without a cause."""
     # Both ends: at one frequency an offset and a delay are the same.
     ends = [float(done.frequencies[0]), float(done.frequencies[-1])]
     hours = costs.hours(METAL, float(np.mean(costs.room)), ends)
@@ -82,22 +54,7 @@ def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
 
 
 def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, Any]]) -> Orders:
-    """Tests again of specimens measured off their target at one isotherm: a slip there makes false biases.
-
-    Parameters
-    ----------
-    done : Observations
-        The tests there are.
-    costs : Costs
-        Machine hours.
-    found : sequence of mapping
-        Tests off their target.
-
-    Returns
-    -------
-    Orders
-        One for each specimen and isotherm.
-    """
+    """Order tests again of specimens measured off their target at one isotherm: a slip there makes false biases."""
     orders: Orders = []
     for t in sorted({one["temperature_C"] for one in found}):
         here = [one for one in found if one["temperature_C"] == t]
@@ -115,20 +72,7 @@ def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, An
 
 
 def second_specimen(done: Observations, costs: Costs) -> Orders:
-    """A new specimen at the same conditions, where one alone was tested.
-
-    Parameters
-    ----------
-    done : Observations
-        The tests there are.
-    costs : Costs
-        Machine hours.
-
-    Returns
-    -------
-    Orders
-        None where there are several.
-    """
+    """Order a new specimen at the same conditions, where one alone was tested."""
     if len(done.names) > 1:
         return []
     why = "Two specimens show the scatter from test to test. Without it nothing here is certain."
@@ -137,20 +81,7 @@ def second_specimen(done: Observations, costs: Costs) -> Orders:
 
 
 def more_temperatures(done: Observations, costs: Costs) -> Orders:
-    """As many as certainty lacks: beyond those tested, then between them.
-
-    Parameters
-    ----------
-    done : Observations
-        The tests there are.
-    costs : Costs
-        Machine hours.
-
-    Returns
-    -------
-    Orders
-        None where none is lacking.
-    """
+    """Order as many temperatures as certainty lacks: beyond those tested, then between them."""
     tested = done.isotherms
     beyond = [t for t in (tested[-1] + BEYOND, tested[0] - BEYOND) if COLDEST <= t <= WARMEST]
     between = [t for t in temperatures(done) if tested[0] < t < tested[-1] and t not in tested]
@@ -178,23 +109,10 @@ def _order(
 def content(
     act: str, why: tuple[str, list[str]], hours: float, tests: tuple[list[str], list[float], list[float]]
 ) -> dict[str, Any]:
-    """An order as diagnosis.json has it.
+    """An order as diagnosis.json has it, of no computed gain and at the usual strain.
 
-    Parameters
-    ----------
-    act : str
-        What to do.
-    why : tuple of str and list of str
-        Its purpose in a few words, and the reasons in full.
-    hours : float
-        That it takes.
-    tests : tuple of list
-        Names of the specimens, temperatures [degC] and frequencies [Hz].
-
-    Returns
-    -------
-    dict
-        Of no computed gain, at the usual strain.
+    `why` holds its purpose in a few words and the reasons in full; `hours` in h; `tests` are the names of the
+    specimens, temperatures [degC] and frequencies [Hz].
     """
     names, at, frequencies = tests
     return {
@@ -211,18 +129,7 @@ def content(
 
 
 def named(specimens: Sequence[str]) -> str:
-    """`specimens A and B`, `specimen A and a new specimen`.
-
-    Parameters
-    ----------
-    specimens : sequence of str
-        Their names.
-
-    Returns
-    -------
-    str
-        In words.
-    """
+    """Names of specimens in words: `specimens A and B`, `specimen A and a new specimen`."""
     own = [name for name in specimens if name not in (METAL, NEW)]
     others = [name for name in specimens if name in (METAL, NEW)]
     if len(own) > 1 and specimen_named(own[0]) != own[0]:
@@ -231,18 +138,7 @@ def named(specimens: Sequence[str]) -> str:
 
 
 def band(f: Sequence[float]) -> str:
-    """`1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`.
-
-    Parameters
-    ----------
-    f : sequence of float
-        Frequencies [Hz], ascending.
-
-    Returns
-    -------
-    str
-        In words.
-    """
+    """Frequencies [Hz], ascending, in words: `1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`."""
     if len(f) < 4:
         return f"{joined([f'{x:g}' for x in f])} Hz"
     return f"{f[0]:g} to {f[-1]:g} Hz ({len(f)} frequencies)"

@@ -31,25 +31,12 @@ METAL_LEVEL = 0.03  # how well the modulus of a metal specimen and its form fact
 
 @dataclass(frozen=True)
 class Departure:
-    """By how much tests depart from the model, and what that is about.
+    """By how much ln E* (N,) of tests departs from the model, and what that is about.
 
-    Parameters
-    ----------
-    kind : str
-        "linear", what changes at half the strain at an isotherm if the departure is proportional to the
-        strain; "repeat", a test that cannot be used; "level", an isotherm or specimen that is odd.
-    effect : ndarray of complex (N,)
-        ln E*.
-    specimen : str, optional
-        Where; None where it is everywhere.
-    isotherm : float, optional
-        Where [degC]; None where it is everywhere.
-    frequency : float, optional
-        Where [Hz]; None where it is everywhere.
-    odd : mapping, optional
-        Of a level, the entry of `levels.odd` or `odd_phases`.
-    copied : bool
-        Whether a test cannot be used because it or another is a copy.
+    `kind`: "linear", what changes at half the strain at an isotherm if the departure is proportional to the strain;
+    "repeat", a test that cannot be used (`copied`: because it or another is a copy); "level", an isotherm or specimen
+    that is odd (`odd`: the entry of `levels.odd` or `odd_phases`). `isotherm` in degC, `frequency` in Hz; None where it
+    is everywhere.
     """
 
     kind: str
@@ -63,24 +50,10 @@ class Departure:
 
 @dataclass(frozen=True)
 class Possible:
-    """The model at the tests done and at all that could follow.
+    """The model at the tests done, then at all that could follow, then at tests of metal.
 
-    Parameters
-    ----------
-    table : Observations
-        Tests done, then those that could follow.
-    linear : Linear
-        The model, linearised.
-    old : Tested
-        Tests done.
-    sweeps : tuple of Sweep
-        That could follow.
-    candidates : tuple of Candidate
-        Causes, in the order of the effects.
-    departures : tuple of Departure
-        What effects come next.
-    metal_frequencies : ndarray
-        Of the rows that follow those of the table [Hz].
+    `candidates` are causes in the order of the effects, whose `departures` come next; `metal_frequencies` in Hz are of
+    the rows that follow those of the table.
     """
 
     table: Observations
@@ -93,20 +66,7 @@ class Possible:
 
 
 def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
-    """All sweeps, with the model linearised at the last fit.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Of the tests done.
-    costs : Costs
-        Machine hours.
-
-    Returns
-    -------
-    Possible
-        The model at all tests.
-    """
+    """All sweeps that could follow, with the model linearised at the last fit."""
     observed = sweeps.with_strain(diagnosis.observed)
     fitted, base = diagnosis.ladder.fitted, diagnosis.ladder.joint.base
     laws_between = isinstance(base, FlexibleSpectrum)  # a Burgers law says nothing of another temperature

@@ -27,14 +27,8 @@ TOGETHER = 128  # sets of tests that are weighed at once, so that memory stays s
 class Linear:
     """The model of N possible tests, linearised.
 
-    Parameters
-    ----------
-    nuisance : ndarray of complex (N, q)
-        d ln E*/dx.
-    precision : ndarray (q, q)
-        Of x before any test.
-    effects : ndarray of complex (N, K)
-        d ln E*/da, of one typical amplitude of each cause.
+    `nuisance` (N, q) is d ln E*/dx; `precision` (q, q) of x before any test; `effects` (N, K) is d ln E*/da, of one
+    typical amplitude of each cause.
     """
 
     nuisance: Complex
@@ -44,46 +38,19 @@ class Linear:
 
 @dataclass(frozen=True)
 class Tested:
-    """n tests done together.
-
-    Parameters
-    ----------
-    rows : ndarray of int (n,)
-        In the model.
-    scatter : ndarray (2n, 2n)
-        Covariance of ln|E*| and phase.
-    """
+    """Tests done together: `rows` (n,) in the model and `scatter` (2n, 2n), the covariance of ln|E*| and phase."""
 
     rows: NDArray[np.int64]
     scatter: Matrix
 
 
 def parts(values: Complex) -> Matrix:
-    """ln|E*| first, then phase.
-
-    Parameters
-    ----------
-    values : ndarray of complex (n, ...)
-        ln E*.
-
-    Returns
-    -------
-    ndarray (2n, ...)
-        Real.
-    """
+    """ln E* (n, ...) as real (2n, ...): ln|E*| first, then phase."""
     return np.concatenate([values.real, values.imag])
 
 
 class Knowledge:
-    """What some tests say. information (K, K): of the amplitudes, with everything else integrated out.
-
-    Parameters
-    ----------
-    linear : Linear
-        The model.
-    tested : sequence of Tested
-        Tests done.
-    """
+    """What some tests say; information (K, K) is of the amplitudes, with everything else integrated out."""
 
     def __init__(self, linear: Linear, tested: Sequence[Tested]) -> None:
         q, k = linear.nuisance.shape[1], linear.effects.shape[1]
@@ -107,33 +74,11 @@ class Knowledge:
         return solve_triangular(self._lower, self._h.T, lower=True, check_finite=False).T
 
     def expected(self, weighed: Matrix) -> Matrix:
-        """x from the tests that Knowledge began with.
-
-        Parameters
-        ----------
-        weighed : ndarray (q, ...)
-            H^T of the inverse scatter times what was measured.
-
-        Returns
-        -------
-        ndarray (q, ...)
-            Mean of x.
-        """
+        """Mean (q, ...) of x from the first tests; `weighed` (q, ...) is H^T of the inverse scatter times the data."""
         return cho_solve((self._lower, True), weighed, check_finite=False)
 
     def gained(self, tests: Sequence[Tested]) -> Matrix:
-        """Information that each of M sets of further tests would add.
-
-        Parameters
-        ----------
-        tests : sequence of Tested (M,)
-            The sets.
-
-        Returns
-        -------
-        ndarray (M, K, K)
-            Of the amplitudes.
-        """
+        """Information (M, K, K) of the amplitudes that each of M sets of further tests would add."""
         more = np.zeros((len(tests), *self.information.shape))
         sizes = np.array([one.rows.size for one in tests])
         for size in np.unique(sizes[sizes > 0]):
@@ -152,18 +97,7 @@ class Knowledge:
         return np.linalg.solve(lower, self._left[at]), np.linalg.solve(lower, spread)
 
     def after(self, tests: Tested) -> Knowledge:
-        """With further tests done.
-
-        Parameters
-        ----------
-        tests : Tested
-            Which.
-
-        Returns
-        -------
-        Knowledge
-            Another one.
-        """
+        """What is known with further tests done."""
         # Updated by the tests taken alone: a factor anew would be of all q unknowns, after each order.
         effects, spread = (value[0] for value in self._new(tests.rows[None], [tests.scatter]))
         new = copy(self)
@@ -180,20 +114,9 @@ class Knowledge:
 class Question:
     """Is the effect of one cause there, where other causes are free?
 
-    Parameters
-    ----------
-    cause : int
-        Place of its effect in the model.
-    amplitude : float
-        [typical units].
-    free : tuple of int
-        Other causes.
-    need : float
-        Square of the amplitude over its standard error at which the answer is sure enough.
-    kept : ndarray of bool (N,)
-        Rows of the model that count for it, old and new: all, or those without the test that the cause hangs on.
-    weight : float
-        Chance that the question matters.
+    `cause` and `free` are places in the model; `amplitude` is in typical units; `need` is the square of the amplitude
+    over its standard error at which the answer is sure enough. `kept` (N,) are the rows that count, old and new: all,
+    or those without the test that the cause hangs on. `weight` is the chance that the question matters.
     """
 
     cause: int
@@ -204,18 +127,7 @@ class Question:
     weight: float = 1.0
 
     def strength(self, information: Matrix) -> Matrix:
-        """Square of the amplitude over its standard error: expected 2 ln of the Bayes factor (Laplace).
-
-        Parameters
-        ----------
-        information : ndarray (..., K, K)
-            Of one set of tests or of many.
-
-        Returns
-        -------
-        ndarray (...)
-            Of each set.
-        """
+        """Square of the amplitude over its standard error, per set: expected 2 ln of the Bayes factor (Laplace)."""
         free = [k for k in self.free if k != self.cause]
         own = information[..., self.cause, self.cause]
         if free:
@@ -228,33 +140,12 @@ class Question:
         return self.amplitude**2 * np.maximum(own, 0.0)
 
     def nats(self, information: Matrix) -> Matrix:
-        """Expected evidence for the right answer, no more than is needed.
-
-        Parameters
-        ----------
-        information : ndarray (..., K, K)
-            Of one set of tests or of many.
-
-        Returns
-        -------
-        ndarray (...)
-            Of each set.
-        """
+        """Expected evidence for the right answer [nats], no more than is needed; `information` (..., K, K)."""
         return self.weight * 0.5 * np.minimum(self.strength(information), self.need)
 
 
 class Inquiry:
-    """Open questions, each with the tests that count for it; the state of knowledge as tests are chosen.
-
-    Parameters
-    ----------
-    linear : Linear
-        The model.
-    old : Tested
-        Tests done.
-    questions : sequence of Question
-        Asked.
-    """
+    """Open questions, each with the tests that count for it; the state of knowledge as tests are chosen."""
 
     def __init__(self, linear: Linear, old: Tested, questions: Sequence[Question]) -> None:
         self.questions = questions
@@ -262,18 +153,7 @@ class Inquiry:
         self._known = {key: Knowledge(linear, [_some(old, rows)]) for key, rows in kept.items()}
 
     def gains(self, tests: Sequence[Tested]) -> Matrix:
-        """What sets of tests would add to each question.
-
-        Parameters
-        ----------
-        tests : sequence of Tested (M,)
-            The sets.
-
-        Returns
-        -------
-        ndarray (M, Q)
-            Nats.
-        """
+        """What each of M sets of tests would add to each of Q questions (M, Q) [nats]."""
         after = {
             key: known.information + known.gained([_some(one, np.frombuffer(key, bool)) for one in tests])
             for key, known in self._known.items()
@@ -290,13 +170,7 @@ class Inquiry:
         return self._known[one.kept.tobytes()].information
 
     def take(self, tests: Tested) -> None:
-        """Do the tests.
-
-        Parameters
-        ----------
-        tests : Tested
-            Which.
-        """
+        """Count these tests as done, for every question that they bear on."""
         for key, known in self._known.items():
             kept = _some(tests, np.frombuffer(key, bool))
             if kept.rows.size:

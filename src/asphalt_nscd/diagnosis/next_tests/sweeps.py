@@ -26,22 +26,10 @@ HALF = 0.5  # of the strain, at which linearity is checked
 
 @dataclass(frozen=True)
 class Costs:
-    """Machine hours; those of a usual laboratory.
+    """Machine hours of a usual laboratory.
 
-    Parameters
-    ----------
-    mounting : float
-        Of a specimen [h].
-    conditioning : float
-        Of a specimen to a temperature other than that of the room [h].
-    room : tuple of float
-        Temperatures of the room [degC].
-    new_specimen : float
-        Cored, trimmed, glued [h].
-    cycles : float
-        At each frequency.
-    pause : float
-        At each frequency [h].
+    `mounting`, `pause` (at each frequency) and `new_specimen` (cored, trimmed, glued) in h; `conditioning` [h] is to a
+    temperature outside `room` [degC]; `cycles` counts load cycles at each frequency.
     """
 
     mounting: float = 0.5
@@ -52,22 +40,7 @@ class Costs:
     pause: float = 1.0 / 60.0
 
     def hours(self, specimen: str, temperature: float, frequencies: Sequence[float]) -> float:
-        """Hours of a sweep of one specimen.
-
-        Parameters
-        ----------
-        specimen : str
-            Its name.
-        temperature : float
-            [degC].
-        frequencies : sequence of float
-            [Hz].
-
-        Returns
-        -------
-        float
-            [h].
-        """
+        """Machine hours of a sweep of one specimen [h], at a temperature [degC] over frequencies [Hz]."""
         away = specimen != METAL and not self.room[0] <= temperature <= self.room[1]
         fixed = self.mounting + self.conditioning * away + self.new_specimen * (specimen == NEW)
         return fixed + sum(self.cycles / f / 3600.0 + self.pause for f in frequencies)
@@ -84,23 +57,7 @@ class Costs:
 
 @dataclass(frozen=True)
 class Sweep:
-    """One specimen at one temperature over some frequencies.
-
-    Parameters
-    ----------
-    specimen : str
-        Its name.
-    temperature : float
-        [degC].
-    frequencies : tuple of float
-        [Hz].
-    half_strain : bool
-        At half of the usual strain.
-    tested : Tested
-        Its rows and their scatter.
-    hours : float
-        That it takes.
-    """
+    """Tests of one specimen at one temperature [degC] over some frequencies [Hz], and the hours that they take."""
 
     specimen: str
     temperature: float
@@ -111,18 +68,7 @@ class Sweep:
 
 
 def temperatures(observed: Observations) -> list[float]:
-    """Isotherms tested (a dozen at most), one between any two that are far apart, one beyond either end.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    list of float
-        [degC], ascending.
-    """
+    """Isotherms tested (twelve at most), one between any two far apart, one beyond either end [degC], ascending."""
     tested = _some(observed.isotherms, ISOTHERMS)
     middle = [round(float(a + b) / 2.0) for a, b in pairwise(tested) if b - a >= APART]
     ends = [round(float(tested[0] - BEYOND)), round(float(tested[-1] + BEYOND))]
@@ -131,18 +77,7 @@ def temperatures(observed: Observations) -> list[float]:
 
 
 def frequencies(observed: Observations) -> list[float]:
-    """Frequencies tested (at most eight of them), and one below them.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    list of float
-        [Hz], ascending.
-    """
+    """Frequencies tested (at most eight of them), and one below them [Hz], ascending."""
     tested = _some(observed.frequencies, 8)
     # A third, to a digit that a machine can be set to; below 0.01 Hz twenty cycles take more than half an hour.
     lower = float(f"{tested[0] / 3.0:.1g}")
@@ -155,38 +90,14 @@ def _some(values: NDArray[np.float64], most: int) -> NDArray[np.float64]:
 
 
 def with_strain(observed: Observations) -> Observations:
-    """With amplitudes relative to the usual one, where the table has none.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    Observations
-        The same tests.
-    """
+    """The same tests with amplitudes relative to the usual one, where the table has none."""
     if observed.amplitude is not None:
         return observed
     return replace(observed, amplitude=np.ones(observed.size), whole=None)
 
 
 def every_test(observed: Observations, at: Sequence[float]) -> Observations:
-    """The tests done, then every specimen, with a new one, at every temperature and frequency and two strains.
-
-    Parameters
-    ----------
-    observed : Observations
-        Tests done.
-    at : sequence of float
-        Temperatures [degC].
-
-    Returns
-    -------
-    Observations
-        N rows.
-    """
+    """The tests done, then every specimen and a new one at all temperatures [degC], frequencies and two strains."""
     names = (*observed.names, NEW)
     full = [(s, t, f, 1.0) for s in range(len(names)) for t in at for f in frequencies(observed)]
     tested = set(zip(observed.specimen.tolist(), observed.isotherm.tolist(), strict=True))
@@ -232,39 +143,13 @@ def _after(observed: Observations, name: str, specimen: NDArray[np.int64]) -> ND
 
 
 def at_half_strain(table: Observations) -> NDArray[np.bool_]:
-    """Rows of tests at half the usual strain.
-
-    Parameters
-    ----------
-    table : Observations
-        N tests.
-
-    Returns
-    -------
-    ndarray of bool (N,)
-        True for these.
-    """
+    """Rows of tests at half the usual strain (N,)."""
     strain = table.known("amplitude")
     return np.asarray(strain < 0.5 * (1.0 + HALF) * np.median(strain))
 
 
 def noise_of(noise: Noise, observed: Observations, table: Observations) -> Noise:
-    """Scatter of each isotherm; that of the whole table on a new one. Every sweep is a mounting of its own.
-
-    Parameters
-    ----------
-    noise : Noise
-        Of the tests done.
-    observed : Observations
-        Tests done.
-    table : Observations
-        N tests.
-
-    Returns
-    -------
-    Noise
-        Of all N.
-    """
+    """Noise of all N tests: scatter by isotherm, of the whole table on a new one; each new sweep is a mounting."""
     within, shared = (np.empty((2, table.size)) for _ in range(2))
     for wide, known in ((within, noise.within), (shared, noise.shared)):
         wide[:] = known.mean(axis=1, keepdims=True)
@@ -278,44 +163,14 @@ def noise_of(noise: Noise, observed: Observations, table: Observations) -> Noise
 
 
 def scatter_of(within: NDArray, shared: NDArray, block: NDArray) -> NDArray[np.float64]:
-    """Covariance of ln|E*| and phase.
-
-    Parameters
-    ----------
-    within, shared : ndarray (2, n)
-        Standard deviations of a test and of its mounting.
-    block : ndarray of int (n,)
-        Number of the mounting.
-
-    Returns
-    -------
-    ndarray (2n, 2n)
-        ln|E*| first.
-    """
+    """Covariance (2n, 2n) of ln|E*|, then phase, from standard deviations (2, n) of a test and of its mounting."""
     same = block[:, None] == block
     of_tests, of_mountings = within**2, shared[:, :, None] * shared[:, None] * same
     return block_diag(*map(np.diag, of_tests)) + block_diag(*of_mountings)
 
 
 def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: Costs) -> Iterator[Sweep]:
-    """Sweeps of all specimens; the rows of table behind those of observed hold them.
-
-    Parameters
-    ----------
-    observed : Observations
-        Tests done.
-    table : Observations
-        N tests.
-    noise : Noise
-        Of all N.
-    costs : Costs
-        Machine hours.
-
-    Yields
-    ------
-    Sweep
-        One after another.
-    """
+    """Sweeps of all specimens, made of the rows of `table` behind those of `observed`; `noise` is that of all N."""
     first = observed.size
     halved = at_half_strain(table)
     groups: dict[tuple, dict[float, int]] = {}
@@ -334,42 +189,14 @@ def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: 
 
 
 def on_metal(observed: Observations) -> Observations:
-    """A metal specimen at the frequencies tested.
-
-    Parameters
-    ----------
-    observed : Observations
-        Tests done.
-
-    Returns
-    -------
-    Observations
-        One row for each frequency.
-    """
+    """Tests of a metal specimen, one row for each of the frequencies tested (at most eight)."""
     tested, first = np.unique(observed.frequency, return_index=True)
     at = first[np.isin(tested, frequencies(observed))]
     return replace(observed.subset(at), modulus=np.full(at.size, METAL_MODULUS + 0j))
 
 
 def sweeps_on_metal(metal: Observations, first: int, noise: Noise, costs: Costs) -> Iterator[Sweep]:
-    """Sweeps of a metal specimen, whose rows stand behind those of the table.
-
-    Parameters
-    ----------
-    metal : Observations
-        Of `on_metal`.
-    first : int
-        Row of its first test.
-    noise : Noise
-        Of the tests done.
-    costs : Costs
-        Machine hours.
-
-    Yields
-    ------
-    Sweep
-        One after another.
-    """
+    """Sweeps of a metal specimen, whose rows stand behind those of the table, from row `first` on."""
     f = [float(value) for value in metal.frequency]
     ends = sorted({0, len(f) - 1})  # both: of one frequency nobody tells an offset from a delay
     for chosen in dict.fromkeys([tuple(range(len(f))), tuple(sorted({*ends, len(f) // 2})), tuple(ends)]):

@@ -18,34 +18,13 @@ SAME = 1e-9  # relative difference
 
 @dataclass(frozen=True)
 class Copy:
-    """Two blocks of tests that agree in every digit at the same frequencies.
-
-    Parameters
-    ----------
-    blocks : tuple
-        Specimen and isotherm [degC] of each.
-    rows : tuple of int
-        Of both in the table.
-    """
+    """Two blocks of tests (specimen, isotherm [degC]) that agree in every digit at the same frequencies."""
 
     blocks: tuple[tuple[str, float], tuple[str, float]]
     rows: tuple[int, ...]
 
     def reason(self, specimen: str, isotherm: float) -> str:
-        """What is wrong with one of the two blocks.
-
-        Parameters
-        ----------
-        specimen : str
-            Of the block.
-        isotherm : float
-            Of the block [degC].
-
-        Returns
-        -------
-        str
-            In words, with the mend.
-        """
+        """What is wrong with one of the two blocks, its specimen and isotherm [degC], and how to mend it, in words."""
         other = self.blocks[self.blocks[0] == (specimen, isotherm)]
         return (
             f"equal in every digit to {specimen_named(other[0])} at {other[1]:g} degC: one was copied; look in the "
@@ -54,18 +33,7 @@ class Copy:
 
 
 def copied(observed: Observations) -> Iterator[Copy]:
-    """Sweeps that are copies of each other: of one specimen, or of two at one temperature.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Yields
-    ------
-    Copy
-        A pair.
-    """
+    """Sweeps that are copies of each other: of one specimen, or of two at one temperature."""
     blocks: dict[tuple[str, float], dict[tuple[float, float], int]] = {}
     strain = np.zeros(observed.size) if observed.amplitude is None else observed.amplitude
     for row in range(observed.size):
@@ -85,18 +53,7 @@ def copied(observed: Observations) -> Iterator[Copy]:
 
 
 def refuse_copies(observed: Observations) -> None:
-    """Refuse two specimens that agree in every digit wherever both were tested: copies have no scatter.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Raises
-    ------
-    InputError
-        Which names both.
-    """
+    """Refuse two specimens that agree in every digit wherever both were tested: copies have no scatter."""
     tests: dict[str, dict[int, complex]] = {name: {} for name in observed.names}
     for k, cell, modulus in zip(observed.specimen, observed.cell, observed.modulus, strict=True):
         tests[observed.names[k]][cell] = modulus
@@ -111,18 +68,7 @@ def refuse_copies(observed: Observations) -> None:
 
 
 def refuse_copied_campaign(campaigns: Mapping[str, Observations]) -> None:
-    """Refuse two campaigns of which one holds most tests of the other, in every digit.
-
-    Parameters
-    ----------
-    campaigns : mapping of str to Observations
-        By name.
-
-    Raises
-    ------
-    InputError
-        Which names both.
-    """
+    """Refuse two campaigns (by name) of which one holds most tests of the other, in every digit."""
     tests = {
         name: set(zip(one.temperature, one.frequency, one.modulus, strict=True))
         for name, one in campaigns.items()

@@ -13,24 +13,12 @@ from asphalt_nscd.diagnosis.observed.observations import Complex, Vector
 
 @dataclass(frozen=True)
 class Noise:
-    """Replicate scatter of ln|E*| and of the phase, the specimens' scale, and any discrepancy beside them.
+    """Replicate scatter of ln|E*| and of the phase [rad], the specimens' scale, and any discrepancy beside them.
 
-    Parameters
-    ----------
-    within : ndarray (2, n)
-        Standard deviations of ln|E*| and of the phase [rad], of single tests.
-    shared : ndarray (2, n)
-        The same of what the tests of one block share.
-    block : ndarray of int (n,)
-        Number of the specimen's isotherm a test belongs to.
-    sigma : tuple of float
-        Scatter of one test, mean over the table.
-    scale : float
-        Standard deviation of ln|E*| between specimens.
-    freedom : int
-        Degrees of freedom of the estimate.
-    discrepancy : ndarray (2n, q), optional
-        Factor R of the covariance R R^T of both, added where a table holds more than scatter.
+    `within` and `shared` (2, n): standard deviations of a single test and of what the tests of one block share; `block`
+    (n,) numbers the isotherm of a specimen. `sigma`: scatter of one test, mean over the table; `scale`: standard
+    deviation of ln|E*| between specimens; `freedom`: degrees of freedom of the estimate. `discrepancy` (2n, q): factor
+    R of a covariance R R^T, added where a table holds more than scatter.
     """
 
     within: NDArray
@@ -42,34 +30,12 @@ class Noise:
     discrepancy: NDArray | None = None
 
     def beside(self, factor: NDArray) -> Noise:
-        """With another discrepancy beside this one.
-
-        Parameters
-        ----------
-        factor : ndarray (2n, q)
-            Of its covariance.
-
-        Returns
-        -------
-        Noise
-            Of both.
-        """
+        """This noise with another discrepancy beside its own; `factor` (2n, q) is that of its covariance."""
         both = factor if self.discrepancy is None else np.hstack([self.discrepancy, factor])
         return replace(self, discrepancy=both)
 
     def subset(self, rows: NDArray) -> Noise:
-        """The noise of some of the rows.
-
-        Parameters
-        ----------
-        rows : ndarray
-            Mask or index.
-
-        Returns
-        -------
-        Noise
-            Of these.
-        """
+        """The noise of some of the rows, given as a mask or an index."""
         both = np.concatenate([np.arange(self.block.size)[rows] + k * self.block.size for k in (0, 1)])
         beside = None if self.discrepancy is None else self.discrepancy[both]
         block = np.unique(self.block[rows], return_inverse=True)[1]
@@ -78,18 +44,7 @@ class Noise:
         )
 
     def whiten(self, values: Complex) -> Vector:
-        """Values in units of the scatter.
-
-        Parameters
-        ----------
-        values : ndarray of complex (n, ...)
-            Of ln E*.
-
-        Returns
-        -------
-        ndarray (2n, ...)
-            Real, of unit scatter.
-        """
+        """ln E* (n, ...) in units of the scatter: real and of unit scatter (2n, ...)."""
         white = np.concatenate([self._whitened(0, values.real), self._whitened(1, values.imag)])
         if self.discrepancy is None:
             return white

@@ -17,44 +17,12 @@ HELD = 3  # tests of an isotherm that may be off by itself
 
 @dataclass(frozen=True)
 class Observations:
-    """n tests on S specimens, one row each.
+    """n tests on S specimens, one row each; an optional column is None where the table lacks it.
 
-    Parameters
-    ----------
-    specimen : ndarray of int (n,)
-        Index into names.
-    names : tuple of str (S,)
-        Of the specimens.
-    temperature : ndarray (n,)
-        As measured [degC].
-    frequency : ndarray (n,)
-        [Hz].
-    modulus : ndarray of complex (n,)
-        Apparent E* [Pa].
-    form_factor : ndarray (n,)
-        gamma between force over displacement at the head and modulus [1/m].
-    inertia : ndarray (n,)
-        gamma mu, of which the reduction added omega^2 to force over displacement, Eq. (1) [kg/m].
-    amplitude : ndarray (n,), optional
-        [m]; None where the table has no such column, as of the next three.
-    order : ndarray (n,), optional
-        Of the tests in time.
-    cycles : ndarray (n,), optional
-        Load cycles before or in the test.
-    time_step : ndarray (n,), optional
-        Of a simulation [s].
-    static_modulus : float, optional
-        Modulus at long times [Pa], known from another test, or None.
-    whole : Observations, optional
-        The table these are rows of, None if they are all.
-    nominal_temperature : ndarray (n,), optional
-        Temperature of the isotherm each test belongs to [degC], where the measured ones differ within it.
-    strain : ndarray (n,), optional
-        Amplitude of the strain, where measured.
-    quality : mapping of str to ndarray (n,)
-        Columns of the testing machine, NaN where it gave none (see `diagnosis.observed.quality`).
-    test_type : str
-        "bending" (two-point), "tension-compression" (a cylinder) or "unknown".
+    `specimen` (n,) indexes `names` (S,). Temperatures in degC (`nominal_temperature`: of the isotherm), `frequency` in
+    Hz, apparent `modulus` and `static_modulus` (at long times) in Pa, `amplitude` in m, `time_step` of a simulation in
+    s; `form_factor` gamma between force over displacement and E* [1/m]; `inertia` gamma mu [kg/m], of which Eq. (1)
+    added omega^2. `whole` is None if these are all rows; `quality` is NaN where the machine gave none.
     """
 
     specimen: NDArray[np.int64]
@@ -131,35 +99,13 @@ class Observations:
         return {name: value for name, value in found.items() if isinstance(value, np.ndarray)}
 
     def known(self, name: str) -> Vector:
-        """An optional column that the caller knows to be there.
-
-        Parameters
-        ----------
-        name : str
-            Of the field.
-
-        Returns
-        -------
-        ndarray (n,)
-            The column.
-        """
+        """An optional column (n,) that the caller knows to be there."""
         column: Vector | None = getattr(self, name)
         assert column is not None, name
         return column
 
     def subset(self, rows: NDArray) -> Observations:
-        """Some of the rows; names stay, so that numbers keep their meaning.
-
-        Parameters
-        ----------
-        rows : ndarray
-            Mask or index.
-
-        Returns
-        -------
-        Observations
-            Of these.
-        """
+        """Some of the rows, by mask or index; names stay, so that numbers keep their meaning."""
         columns: dict[str, Any] = {name: column[rows] for name, column in self.columns.items()}
         quality = {name: column[rows] for name, column in self.quality.items()}
         return replace(self, **columns, quality=quality, whole=self.table)

@@ -15,19 +15,7 @@ SPECIMEN, MACHINE = "the gauges and the ends of the specimens", "the control of 
 
 @dataclass(frozen=True)
 class Limit:
-    """Largest value of a quality column that the standard accepts.
-
-    Parameters
-    ----------
-    limit : float
-        In `unit`.
-    unit : str
-        "%" or "deg".
-    label : str
-        Of the column, for a reader.
-    check : str
-        What to check where most tests exceed it.
-    """
+    """Largest value that the standard accepts, in `unit` ("%" or "deg"), and what to check where most exceed it."""
 
     limit: float
     unit: str
@@ -58,18 +46,7 @@ COLUMNS = (*LIMITS, *UNLIMITED)
 
 
 def exceeded(observed: Observations) -> list[Exceeded]:
-    """Every quality value above its limit; NaN exceeds nothing.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    list of Exceeded
-        By row and then in the order of LIMITS.
-    """
+    """Every quality value above its limit, by row and then in the order of LIMITS; NaN exceeds nothing."""
     found = [
         Exceeded(int(row), name, float(observed.quality[name][row]), limit.limit)
         for name, limit in LIMITS.items()
@@ -80,20 +57,7 @@ def exceeded(observed: Observations) -> list[Exceeded]:
 
 
 def where(observed: Observations, column: str) -> str:
-    """Where a limit is exceeded.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    column : str
-        Of quality.
-
-    Returns
-    -------
-    str
-        Specimens, each at the isotherms where half of its tests or more exceed the limit, in words.
-    """
+    """Specimens, each at the isotherms where half of its tests or more exceed the limit of a column, in words."""
     rows = [one.row for one in exceeded(observed) if one.column == column]
     above = np.isin(np.arange(observed.size), rows)
     places, parts = [], []

@@ -46,34 +46,12 @@ def read_observations(
     geometry: str | Path | Mapping[str, Any],
     static_modulus: float | None = None,
 ) -> tuple[Observations, str]:
-    """Observations of a campaign or of a measurement table, and the origin its rows state.
+    """Observations of a campaign or of a measurement table, and the origin its rows state ("mixed" where they differ).
 
-    Columns specimen (or replicate), temperature_C (T_C), frequency_Hz (f_Hz), and one of the forms of
-    `reduce`; optional amplitude_m, order, cycles, replicate beside specimen, nominal_temperature_C (of the
-    isotherm), microstrain (peak to peak, as T 378 sets it) and the columns of `diagnosis.observed.quality`,
-    which may have empty cells.
-
-    Parameters
-    ----------
-    measurements : path or Campaign
-        CSV table, or tests that were read already.
-    geometry : path or mapping
-        Of the specimens: their form factors, and Eq. (1) where forces are given.
-    static_modulus : float, optional
-        Of the mix, where it is known [Pa].
-
-    Returns
-    -------
-    Observations
-        Measured tests.
-    str
-        As the rows state it, for example measured; origins that differ are listed behind "mixed".
-
-    Raises
-    ------
-    InputError
-        For a table that nothing can be diagnosed of: without phases, too long, of forces that are not of
-        two-point bending, with a wrong sign or another slip, or softer than the static modulus.
+    Columns specimen (or replicate), temperature_C (T_C), frequency_Hz (f_Hz), and one of the forms of `reduce`;
+    optional amplitude_m, order, cycles, replicate beside specimen, nominal_temperature_C (of the isotherm), microstrain
+    (peak to peak, as T 378 sets it) and those of `diagnosis.observed.quality`, which may have empty cells. `geometry`
+    gives form factors, and Eq. (1) where forces are given; `static_modulus` in Pa.
     """
     campaign = measurements if isinstance(measurements, Campaign) else None
     table = _renamed(measurements.table if isinstance(measurements, Campaign) else read_csv(measurements))

@@ -19,16 +19,8 @@ from asphalt_nscd.diagnosis.observed.scatter import unexplained
 def coefficients(observed: Observations) -> dict[str, Any] | None:
     """Coefficients of variation `between` and `within` specimens, for all tests and by isotherm.
 
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    dict or None
-        Each is {"E_percent", "phase_deg"}; `within` is None where it cannot be told from the specimens'
-        levels. None where nothing was repeated.
+    Each is {"E_percent", "phase_deg"}; `within` is None where it cannot be told from the specimens' levels. The whole
+    is None where nothing was repeated.
     """
     rows = {
         float(t): found

@@ -17,24 +17,11 @@ SCALE_FREEDOM = 8  # degrees of freedom against those of the table
 
 
 def pure_error(observed: Observations, nuisance: NDArray) -> tuple[Vector, Vector, int]:
-    """Residuals of ln|E*| and phase within conditions, and their degrees of freedom.
+    """Residuals (n,) of ln|E*| and of the phase [rad] within conditions, and their degrees of freedom.
 
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    nuisance : ndarray of complex (n, k)
-        What specimens may differ by other than scatter (scales, clamps, ...); it is projected out, so
-        that a cause confined to a specimen does not pass for scatter.
-
-    Returns
-    -------
-    ndarray (n,)
-        Of ln|E*|.
-    ndarray (n,)
-        Of the phase [rad].
-    int
-        2 n less what conditions and nuisances take; zero where nothing was repeated.
+    `nuisance` (n, k), what specimens may differ by other than scatter (scales, clamps, ...), is projected out, so that
+    a cause confined to a specimen does not pass for scatter. The degrees of freedom are zero where nothing was
+    repeated.
     """
     cells = np.eye(observed.cell.max() + 1)[observed.cell]
     logarithm = observed.logarithm
@@ -47,46 +34,17 @@ def pure_error(observed: Observations, nuisance: NDArray) -> tuple[Vector, Vecto
 
 
 def unexplained(design: NDArray, values: NDArray) -> tuple[NDArray, int]:
-    """What the columns of a design leave of values.
-
-    Parameters
-    ----------
-    design : ndarray (n, k)
-        Columns that say the same, as of a specimen tested at one condition, count once in the degrees of freedom.
-    values : ndarray (n, ...)
-        To be explained.
-
-    Returns
-    -------
-    ndarray (n, ...)
-        Residuals.
-    int
-        Their degrees of freedom.
-    """
+    """Residuals (n, ...) that a design (n, k) leaves, and their degrees of freedom; columns alike count once."""
     left, size, _ = np.linalg.svd(design, full_matrices=False)
     left = left[:, size > 1e-9 * size[0]]
     return values - left @ (left.T @ values), values.shape[0] - left.shape[1]
 
 
 def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise | None:
-    """Noise of a table.
+    """Noise of a table; None where no condition was repeated.
 
-    A scatter that a whole isotherm of a specimen shares (its temperature, its mounting) is a component of its
-    own.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    nuisance : ndarray
-        What replicates may differ by beside scatter.
-    scales : ndarray (S,)
-        ln of the specimens' scales, first guess.
-
-    Returns
-    -------
-    Noise or None
-        None where no condition was repeated.
+    A scatter that a whole isotherm of a specimen shares (its temperature, its mounting) is a component of its own.
+    `nuisance`: what replicates may differ by beside scatter; `scales` (S,): ln of the specimens' scales, first guess.
     """
     modulus, phase, freedom = pure_error(observed, nuisance)
     # of five degrees of freedom the 95 % interval of a scatter spans a factor of four
@@ -109,26 +67,7 @@ def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise
 def stated(
     observed: Observations, modulus: float, phase: float, scale: float, freedom: int = STATED
 ) -> Noise:
-    """Noise of stated size.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    modulus : float
-        Relative scatter of |E*|.
-    phase : float
-        Scatter of the phase [rad].
-    scale : float
-        Of whole specimens.
-    freedom : int
-        Degrees of freedom.
-
-    Returns
-    -------
-    Noise
-        The same for each test.
-    """
+    """Noise of stated size for each test: relative scatter of |E*|, of the phase [rad], scale of whole specimens."""
     within = np.tile([[modulus], [phase]], observed.size)
     return Noise(within, np.zeros_like(within), _blocks(observed), (modulus, phase), scale, freedom)
 
@@ -183,19 +122,6 @@ def _scale(scales: Vector) -> float:
 
 
 def median_by(values: Vector, label: NDArray[np.int64]) -> Vector:
-    """Median of the group of each row.
-
-    Parameters
-    ----------
-    values : ndarray (n,)
-        Of the rows.
-    label : ndarray of int (n,)
-        Group of each.
-
-    Returns
-    -------
-    ndarray (n,)
-        One for each row.
-    """
+    """Median of the group of each row (n,); `label` (n,) is the group."""
     medians = np.array([np.median(values[label == k]) for k in range(label.max() + 1)])
     return medians[label]

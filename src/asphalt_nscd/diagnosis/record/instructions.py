@@ -52,23 +52,7 @@ REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that shou
 def instructions(
     diagnosis: Diagnosis, costs: Costs | None = None, ahead: fixed_orders.Orders | None = None
 ) -> dict[str, Any]:
-    """Content of `instructions` in diagnosis.json: at most five orders, doubtful tests first, then by gain per
-    hour.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    costs : Costs, optional
-        Machine hours; usual ones if None.
-    ahead : fixed_orders.Orders, optional
-        Orders that come before all others.
-
-    Returns
-    -------
-    dict
-        costs and orders.
-    """
+    """`instructions` of diagnosis.json: at most five orders, `ahead`, then doubtful tests, then by gain per hour."""
     costs = costs or Costs()
     model = possible(diagnosis, costs)
     questions = open_questions(diagnosis, model)
@@ -88,20 +72,7 @@ def instructions(
 
 
 def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
-    """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order.
-
-    Parameters
-    ----------
-    model : Possible
-        At all tests that could follow.
-    questions : sequence of Open
-        Open ones.
-
-    Returns
-    -------
-    list of Order
-        In the order chosen.
-    """
+    """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order."""
     inquiry = Inquiry(model.linear, model.old, [one.question for one in questions])
     orders: list[Order] = []
     waiting = list(model.sweeps)
@@ -150,20 +121,7 @@ def _again(one: Sweep, other: Sweep) -> bool:
 
 
 def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
-    """What the diagnosis leaves open.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    model : Possible
-        Named causes, others that may be there, and departures, with what new tests would tell of each.
-
-    Returns
-    -------
-    list of Open
-        Named causes to confirm and to tell apart, departures to repeat, then causes out of reach.
-    """
+    """What stays open: causes to confirm and to tell apart, departures to repeat, then causes out of reach."""
     active = tuple(range(len(diagnosis.ladder.fitted.active)))
     others = list(enumerate(model.candidates))[len(active) :]
     everything = np.ones(model.linear.nuisance.shape[0], bool)
@@ -272,18 +230,7 @@ def _amplitude(candidate: Candidate) -> float:
 
 
 def words_of(candidate: Candidate) -> str:
-    """`loose clamp of 2`, `temperature bias at 30 degC`.
-
-    Parameters
-    ----------
-    candidate : Candidate
-        A cause and where it sits.
-
-    Returns
-    -------
-    str
-        Its name, and a specimen, an isotherm [degC], or nothing for all tests.
-    """
+    """A candidate in words: `loose clamp of 2`, `temperature bias at 30 degC`; no place for a cause of all tests."""
     words, place = candidate.cause.name.replace("_", " "), candidate.place
     if place is None:
         return words

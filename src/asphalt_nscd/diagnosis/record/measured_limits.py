@@ -44,17 +44,7 @@ class Hidden:
 
 @dataclass(frozen=True)
 class Trials:
-    """How the diagnoses are run.
-
-    Parameters
-    ----------
-    scatter : tuple of float, optional
-        As stated by the user.
-    seed : int
-        Of the draws.
-    processes : int, optional
-        At once; one a core if None.
-    """
+    """How the diagnoses are run: with which stated scatter, seed and number of processes (None: one a core)."""
 
     scatter: tuple[float, float] | None = None
     seed: int = 0
@@ -62,22 +52,7 @@ class Trials:
 
 
 def verify(diagnosis: Diagnosis, trials: Trials, progress: Progress = lambda *_: None) -> pd.DataFrame:
-    """Hold the stated limits against what is found; equal on one core or many.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Whose limits.
-    trials : Trials
-        How to run.
-    progress : callable
-        progress(stage, done, total).
-
-    Returns
-    -------
-    DataFrame
-        One row for each cause, place, sign and multiple.
-    """
+    """Hold the stated limits against what is found, by cause, place, sign and multiple; equal on one core or many."""
     work = [(diagnosis, one, trials) for one in plan(diagnosis)]
     rows = []
     with ProcessPoolExecutor(min(trials.processes or cores(), max(len(work), 1))) as pool:
@@ -89,18 +64,7 @@ def verify(diagnosis: Diagnosis, trials: Trials, progress: Progress = lambda *_:
 
 
 def plan(diagnosis: Diagnosis) -> Iterator[Hidden]:
-    """What is to be put in: within the bounds of each cause, at every place that has a limit.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found, with the limits that it states.
-
-    Yields
-    ------
-    Hidden
-        A cause, its place and amplitude; a cause that was named gets it on top of its own.
-    """
+    """What to put in within the bounds of each cause, wherever it has a limit; on top of its own if it was named."""
     observed, active = diagnosis.observed, {c.key: c.values for c in diagnosis.ladder.fitted.active}
     limits = report.physical_limits(diagnosis)
     for cause in CATALOGUE:
@@ -119,20 +83,7 @@ def plan(diagnosis: Diagnosis) -> Iterator[Hidden]:
 
 
 def put_in(diagnosis: Diagnosis, hidden: Hidden) -> Observations:
-    """The whole table, each modulus times what the cause does to that of the law.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Whose last fit says what a cause does to each modulus.
-    hidden : Hidden
-        What is put in.
-
-    Returns
-    -------
-    Observations
-        All tests, those left out too; their own scatter stays.
-    """
+    """The whole table, tests left out too, each modulus times what the cause does to that of the law."""
     whole, ladder = diagnosis.whole or diagnosis.observed, diagnosis.ladder
     # `apparent` asks for no scatter, which is that of the tests used and not of the whole table.
     joint = Joint(whole, ladder.joint.base, ladder.joint.noise)
@@ -172,18 +123,7 @@ def _tried(work: tuple[Diagnosis, Hidden, Trials]) -> dict[str, Any]:
 
 
 def summarised(table: pd.DataFrame) -> dict[str, Any]:
-    """Content of `measured_limits`.
-
-    Parameters
-    ----------
-    table : DataFrame
-        Of `verify`.
-
-    Returns
-    -------
-    dict
-        Of each cause, how often it was named, and how often it should have been.
-    """
+    """Content of `measured_limits`: how often each cause was named, and how often it should have been."""
     counts = table.assign(tried=1, other_named=(table["named_instead"] != "").astype(int))
     counts = counts[["tried", "named", "within_interval", "other_named"]]
     out: dict[str, Any] = {}
@@ -195,16 +135,5 @@ def summarised(table: pd.DataFrame) -> dict[str, Any]:
 
 
 def stated_power(multiple: float) -> float:
-    """Chance to find a cause at a multiple of its limit: 95 % at the limit itself.
-
-    Parameters
-    ----------
-    multiple : float
-        Amplitude over the stated limit.
-
-    Returns
-    -------
-    float
-        Phi(multiple (c + 1.645) - c), c being the usual threshold in standard errors.
-    """
+    """Phi(multiple (c + 1.645) - c), the chance to find a cause at a multiple of its limit; c: usual threshold."""
     return float(ndtr(multiple * (USUAL_THRESHOLD + Z_95) - USUAL_THRESHOLD))

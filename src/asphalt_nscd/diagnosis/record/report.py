@@ -23,20 +23,7 @@ from asphalt_nscd.diagnosis.written import CONFINED_TO, SCHEMA_VERSION, UNITS, n
 
 
 def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
-    """Content of `diagnosis.json` (schema: diagnosis.schema.yaml beside this file).
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    specimen : NumericalSpecimen
-        Numerical specimen.
-
-    Returns
-    -------
-    dict
-        What JSON can hold.
-    """
+    """Content of `diagnosis.json` (schema: diagnosis.schema.yaml beside this file)."""
     ladder, held = [], HeldOut(by_tests_alone(diagnosis))
     if diagnosis.relaxation_spectrum:
         ladder.append(of_law(diagnosis, specimen, held))
@@ -204,18 +191,7 @@ def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:
 
 
 def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
-    """Limits that the cause can reach within the bounds of its amplitude, with the factor of a table far from the fit.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-
-    Returns
-    -------
-    dict of tuple to float
-        By cause and place.
-    """
+    """Limits by cause and place within the bounds of the amplitude, widened where the tests lie far from the fit."""
     first = {cause.name: cause.parameters[0] for cause in CATALOGUE}
     most = {name: max(abs(amplitude.low), abs(amplitude.high)) for name, amplitude in first.items()}
     factor = widening(diagnosis.ladder.estimates_spread)

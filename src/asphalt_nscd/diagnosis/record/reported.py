@@ -61,25 +61,12 @@ class Reported:
 def mix_modulus(
     diagnosis: Diagnosis, temperature: NDArray[np.float64], frequency: NDArray[np.float64]
 ) -> Reported:
-    """E* of the mix without the named causes, by the last fit of the free curve.
+    """ln E* of the mix without the named causes with standard errors, by the last fit of the free curve.
 
-    Its covariance holds the scatter of single tests, that between specimens, and what the causes leave open;
-    errors by propagation of first order. |E*| is as uncertain as few specimens leave it, so that its
-    intervals are of Student's t with their degrees of freedom.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    temperature : ndarray (n,)
-        [degC].
-    frequency : ndarray (n,)
-        [Hz].
-
-    Returns
-    -------
-    Reported
-        Ln E* with standard errors, and where the tests reach in temperature and reduced frequency.
+    At `temperature` (n,) [degC] and `frequency` (n,) [Hz]; the result tells where the tests reach. Its covariance holds
+    the scatter of single tests, that between specimens, and what the causes leave open; errors by propagation of first
+    order. |E*| is as uncertain as few specimens leave it, so that its intervals are of Student's t with their degrees
+    of freedom.
     """
     observed = diagnosis.observed
     base, fitted = diagnosis.law_of_all()
@@ -103,76 +90,28 @@ def mix_modulus(
 
 
 def standard_errors(slope: NDArray[np.float64], covariance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Standard errors of quantities that are linear in parameters.
-
-    Parameters
-    ----------
-    slope : ndarray (n, p)
-        Of n quantities along p parameters.
-    covariance : ndarray (p, p)
-        Of the parameters.
-
-    Returns
-    -------
-    ndarray (n,)
-        Of the quantities.
-    """
+    """Standard errors (n,) of quantities with a `slope` (n, p) along p parameters of a `covariance` (p, p)."""
     values, vectors = np.linalg.eigh(covariance)
     # Where a parameter is all but free, rounding makes the least eigenvalues negative, and would a variance.
     return np.linalg.norm(slope @ (vectors * np.sqrt(np.maximum(values, 0.0))), axis=1)
 
 
 def freedom_of(diagnosis: Diagnosis) -> tuple[float, float]:
-    """Degrees of freedom of the standard errors of the mix.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-
-    Returns
-    -------
-    tuple of float
-        Of |E*| and of the phase.
-    """
+    """Degrees of freedom of the standard errors of the mix: of |E*| and of the phase."""
     freedom = diagnosis.noise.freedom
     # Taken for known, the scatter of two to four specimens held the mix in 88 to 89 % of blind tables, not 95.
     return min(freedom, SCALE_FREEDOM + len(diagnosis.observed.names) - 1), freedom
 
 
 def standard_values(diagnosis: Diagnosis) -> pd.DataFrame:
-    """E* of the mix at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-
-    Returns
-    -------
-    DataFrame
-        One row for each condition, with 95 % intervals.
-    """
+    """E* of the mix with 95 % intervals at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84."""
     conditions = [EN_12697_26, *((t, f) for t in R_84_CELSIUS for f in R_84_HERTZ)]
     temperature, frequency = np.array(conditions).T
     return mix_modulus(diagnosis, temperature, frequency).table()
 
 
 def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
-    """E* of the mix with its intervals over the band of the tests, at one temperature.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    at : float, optional
-        [degC]; else the reference temperature of the free curve.
-
-    Returns
-    -------
-    DataFrame
-        One row for each frequency.
-    """
+    """E* of the mix with its intervals over the band of the tests, at `at` [degC] or the reference temperature."""
     base, fitted = diagnosis.law_of_all()
     law, observed = fitted.law, diagnosis.observed
     at = base.reference_temperature if at is None else at
@@ -185,22 +124,7 @@ def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
 
 
 def with_law(curve: pd.DataFrame, law: Spectrum, uncertainty: Uncertainty | None) -> pd.DataFrame:
-    """The master curve beside that of a law with its 95 % interval, where it is known.
-
-    Parameters
-    ----------
-    curve : DataFrame
-        Of `master_curve`.
-    law : Spectrum
-        Of the mix.
-    uncertainty : Uncertainty or None
-        Of the law, if known.
-
-    Returns
-    -------
-    DataFrame
-        With columns law_...
-    """
+    """The master curve with columns law_... of a law beside it, and its 95 % interval where that is known."""
     omega, temperature = 2.0 * np.pi * curve["frequency_Hz"].to_numpy(), curve["temperature_C"].to_numpy()
     star = law.complex_modulus(omega, temperature)
     modulus, phase = np.abs(star) * 1e-6, np.degrees(np.angle(star))
@@ -214,18 +138,7 @@ def with_law(curve: pd.DataFrame, law: Spectrum, uncertainty: Uncertainty | None
 
 
 def corrected(diagnosis: Diagnosis) -> pd.DataFrame:
-    """Each test of the table as recorded and after the corrections that were made, and why any was left out.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-
-    Returns
-    -------
-    DataFrame
-        One row for each test; one that was left out has no corrected values.
-    """
+    """Each test as recorded and as corrected (NaN if it was left out), and why any was left out."""
     whole = diagnosis.observed if diagnosis.whole is None else diagnosis.whole
     doubts = {one.row: one for one in diagnosis.suspects} if diagnosis.whole is not None else {}
     aside = {row for row, one in doubts.items() if not one.used}

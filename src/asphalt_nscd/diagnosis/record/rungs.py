@@ -18,24 +18,7 @@ from asphalt_nscd.diagnosis.written import interval_95, name_at, widening
 
 
 def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
-    """What a rung gains in sample and on tests left out, as diagnosis.json has it.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    rung : Rung
-        One cause.
-    specimen : NumericalSpecimen
-        Numerical specimen.
-    held : HeldOut
-        Predictions of tests left out.
-
-    Returns
-    -------
-    dict
-        Of the ladder.
-    """
+    """A rung of the ladder as diagnosis.json has it: what a cause gains in sample and on tests left out."""
     observed = diagnosis.observed
     before, after = (gain.nearest(diagnosis, fitted, specimen) for fitted in (rung.before, rung.after))
     in_sample, held_out = gain.before_and_after(diagnosis, before, after), {}
@@ -69,22 +52,7 @@ def _final(diagnosis: Diagnosis, candidate: Candidate) -> Candidate:
 
 
 def amplitude(diagnosis: Diagnosis, candidate: Candidate) -> tuple[float, float]:
-    """Size of a named cause in the last fit.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    candidate : Candidate
-        Which cause.
-
-    Returns
-    -------
-    float
-        Amplitude.
-    float
-        Its standard error.
-    """
+    """Amplitude of a named cause in the last fit, and its standard error."""
     first = next(iter(_parameters(diagnosis, _final(diagnosis, candidate)).values()))
     return first["value"], first["std_error"]
 
@@ -100,22 +68,7 @@ def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[st
 
 
 def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
-    """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-    specimen : NumericalSpecimen
-        Numerical specimen.
-    held : HeldOut
-        Predictions of tests left out.
-
-    Returns
-    -------
-    dict
-        Of the ladder.
-    """
+    """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each."""
     ladder, observed = diagnosis.ladder, diagnosis.observed
     spectrum, fitted = ladder.joint.spectrum, ladder.fitted
     before = gain.with_burgers_laws(diagnosis, specimen)

@@ -53,20 +53,7 @@ class StiffnessOnly:
     notes: tuple[str, ...]
 
     def modulus(self, temperature: Vector, frequency: Vector) -> pd.DataFrame:
-        """|E*| of the mix by the master curve, with 95 % intervals.
-
-        Parameters
-        ----------
-        temperature : ndarray (n,)
-            [degC].
-        frequency : ndarray (n,)
-            [Hz].
-
-        Returns
-        -------
-        DataFrame
-            temperature_C, frequency_Hz, E_MPa, E_low_MPa, E_high_MPa.
-        """
+        """|E*| of the mix [MPa] with 95 % intervals at temperatures [degC] and frequencies [Hz], (n,) each."""
         value, slope = _log10_modulus(self.parameters, self.reference, temperature, frequency)
         specimens = self.tests["specimen"].nunique()
         variance = np.einsum("ij,jk,ik->i", slope, self.covariance, slope) * LN10**2
@@ -121,18 +108,7 @@ class StiffnessOnly:
         )
 
     def write(self, folder: Path) -> list[str]:
-        """Write stiffness.json, stiffness_residuals.csv and master_curve.csv.
-
-        Parameters
-        ----------
-        folder : Path
-            It must exist.
-
-        Returns
-        -------
-        list of str
-            The three names.
-        """
+        """Write stiffness.json, stiffness_residuals.csv and master_curve.csv into an existing folder; their names."""
         names = ("delta_log10_MPa", "alpha_log10_MPa", "place_log10_Hz", "slope", "log10_C1", "log10_C2_K")
         write_table(folder / "stiffness_residuals.csv", self.tests)
         write_table(folder / "master_curve.csv", self.master_curve())
@@ -151,39 +127,12 @@ class StiffnessOnly:
 
 
 def has_no_phase(campaign: Campaign) -> bool:
-    """Whether a campaign gives |E*| alone.
-
-    Parameters
-    ----------
-    campaign : Campaign
-        Tests.
-
-    Returns
-    -------
-    bool
-        True without a column of phases.
-    """
+    """Whether a campaign gives |E*| alone, without a column of phases."""
     return "E_MPa" in campaign.table.columns and "phase_deg" not in campaign.table.columns
 
 
 def fit_stiffness(campaign: Campaign) -> StiffnessOnly:
-    """The master curve of a campaign without phases; specimens differ by a factor each, as usual ones do.
-
-    Parameters
-    ----------
-    campaign : Campaign
-        Tests.
-
-    Returns
-    -------
-    StiffnessOnly
-        Curve, band and scatter.
-
-    Raises
-    ------
-    InputError
-        For one temperature.
-    """
+    """The master curve of a campaign without phases; specimens differ by a factor each, as usual ones do."""
     table = campaign.table
     columns = ("temperature_C", "frequency_Hz", "E_MPa")
     temperature, frequency, modulus = (table.numbers(name, LIMITS[name]) for name in columns)

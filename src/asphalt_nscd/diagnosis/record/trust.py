@@ -21,22 +21,7 @@ LISTED = 4  # gaps of a table that are named
 def reading(
     observed: Observations, notes: Sequence[str], without_tests: Sequence[str] = ()
 ) -> dict[str, Any]:
-    """How the measurements were read: test type, isotherms, quality limits exceeded; notes of the import.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    notes : sequence of str
-        Of the import.
-    without_tests : sequence of str
-        A sentence for each folder some of whose files hold no test.
-
-    Returns
-    -------
-    dict
-        Content of `reading`.
-    """
+    """How the measurements were read: test type, isotherms, quality limits exceeded; notes of the import."""
     specimen = [observed.names[place] for place in observed.specimen]
     above = [
         {
@@ -68,24 +53,7 @@ def reading(
 def trust(
     observed: Observations, diagnosis: Diagnosis, odd: NDArray[np.bool_], broken: Collection[float]
 ) -> dict[str, Any]:
-    """How many tests can be used as they are, of each specimen too, how many after a check, how many not at all.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    diagnosis : Diagnosis
-        What was found.
-    odd : ndarray of bool (n,)
-        Rows of odd isotherms and specimens, and of a highest frequency that is off.
-    broken : collection of float
-        Isotherms that contradict themselves, degC.
-
-    Returns
-    -------
-    dict
-        Content of `trust`.
-    """
+    """How many tests, also by specimen, can be used as they are, after a check (`odd`, `broken` [degC]) or not."""
     out = np.zeros(observed.size, bool)
     out[[one.row for one in diagnosis.suspects if not one.used]] = True
     check = odd | np.isin(observed.isotherm, list(broken))

@@ -34,22 +34,7 @@ class Contradiction:
 
 
 def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list[Contradiction]:
-    """Pairs of neighbouring frequencies where modulus and phase contradict each other.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    fitted : Fitted
-        Law, scales and causes.
-    noise : Noise
-        Scatter of the tests.
-
-    Returns
-    -------
-    list of Contradiction
-        The worst first.
-    """
+    """Pairs of neighbouring frequencies where modulus and phase contradict each other, the worst first."""
     left = observed.logarithm - fitted.modelled
     found, tried = [], 0
     for temperature in observed.isotherms:
@@ -89,20 +74,7 @@ def contradictions(observed: Observations, fitted: Fitted, noise: Noise) -> list
 
 
 def told(found: list[Contradiction], causes: bool) -> list[str]:
-    """All contradictions in a sentence.
-
-    Parameters
-    ----------
-    found : list of Contradiction
-        Of `contradictions`.
-    causes : bool
-        Whether named ones are in the fit.
-
-    Returns
-    -------
-    list of str
-        None without any.
-    """
+    """All contradictions in a sentence, none without any; `causes` says whether named ones are in the fit."""
     if not found:
         return []
     worst, others = found[0], found[1:]

@@ -26,21 +26,8 @@ def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[n
     """Which half of a sweep is wrong, by the level that the specimen has on its other isotherms.
 
     A sweep is turned where causality takes out half of it, only tests on the level of their specimen, or one that is
-    clearly on it, while some others are far off it, and these are no more than half.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    out : ndarray of bool (n,)
-        Those that causality takes out.
-
-    Returns
-    -------
-    ndarray of bool (n,)
-        Tests to leave out.
-    ndarray of bool (n,)
-        Tests of sweeps where the others are left out than causality said.
+    clearly on it, while some others are far off it, and these are no more than half. `out` (n,) is what causality takes
+    out; returns tests (n,) to leave out, and tests (n,) of turned sweeps.
     """
     now, turned = out.copy(), np.zeros(observed.size, bool)
     block, apart = blocks(observed), _from_level(observed)
@@ -59,24 +46,11 @@ def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[n
 
 
 def masked(observed: Observations, out: NDArray[np.bool_], doubtful: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Tests that hide each other in a sweep from which causality takes out none: of four it can accuse but one.
+    """Tests (n,) to leave out besides: they hide each other in a sweep from which causality takes out none.
 
-    Two of a sweep at least must be far off the level of their specimen, one of them doubtful, and all others clearly on
-    it. The worst sweep comes first: what is out is no replicate of the others.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    out : ndarray of bool (n,)
-        Those that are out already.
-    doubtful : ndarray of bool (n,)
-        Those that causality might accuse.
-
-    Returns
-    -------
-    ndarray of bool (n,)
-        Tests to leave out besides.
+    Of four tests it can accuse but one. Two of a sweep at least must be far off the level of their specimen, one of
+    them `doubtful` (causality might accuse it), and all others clearly on it. The worst sweep comes first: what is
+    `out` is no replicate of the others.
     """
     block, found = blocks(observed), np.zeros(observed.size, bool)
     sweeps = [np.flatnonzero(block == one) for one in np.unique(block[doubtful])]

@@ -28,17 +28,7 @@ GOOD = 0.03  # chance of values put right; where it is less, RIVAL is more by tw
 
 @dataclass(frozen=True)
 class Exchange:
-    """Two tests whose readings seem exchanged.
-
-    Parameters
-    ----------
-    rows : tuple of int
-        Of the table.
-    columns : tuple of int
-        0 ln|E*| and 1 phase.
-    beyond : float
-        ln evidence for that, beyond the best with wrong values.
-    """
+    """Two tests whose readings (0 ln|E*|, 1 phase) seem exchanged; `beyond`: ln evidence beyond wrong values."""
 
     rows: tuple[int, int]
     columns: tuple[int, ...]
@@ -46,42 +36,17 @@ class Exchange:
 
 
 def pairs(tests: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """All pairs of an isotherm's tests.
-
-    Parameters
-    ----------
-    tests : int
-        How many.
-
-    Returns
-    -------
-    ndarray of int (p,)
-        Places of the first.
-    ndarray of int (p,)
-        Places of the second.
-    """
+    """All p pairs of an isotherm's tests: the places of the first and of the second, (p,) each."""
     first, second = np.triu_indices(tests, 1)
     return first, second
 
 
 def gains(precision: NDArray, pull: NDArray, weighed: NDArray, readings: NDArray) -> NDArray:
-    """Gain of ln evidence by each of COLUMNS exchanged in each of `pairs`, for b isotherms of k tests.
+    """Gain of ln evidence by each of COLUMNS exchanged in each of `pairs` (b, 3, p), for b isotherms of k tests.
 
-    Parameters
-    ----------
-    precision : ndarray (b, m, 2k, 2k)
-        Of each ripple and bend.
-    pull : ndarray (b, m, 2k)
-        Precision times values.
-    weighed : ndarray (b, m)
-        ln evidence as given.
-    readings : ndarray (b, k, 2)
-        ln|E*| and phase as read, before a common delay is taken off.
-
-    Returns
-    -------
-    ndarray (b, 3, p)
-        Above zero where an exchange is likelier.
+    `precision` (b, m, 2k, 2k) of each ripple and bend, `pull` (b, m, 2k): precision times values, `weighed` (b, m): ln
+    evidence as given, `readings` (b, k, 2): ln|E*| and phase as read, before a common delay is taken off. Above zero an
+    exchange is likelier.
     """
     k = readings.shape[1]
     first, second = pairs(k)
@@ -104,32 +69,10 @@ def gains(precision: NDArray, pull: NDArray, weighed: NDArray, readings: NDArray
 
 
 def least_gain(tests: NDArray[np.int64]) -> float:
-    """Gain that is no chance.
-
-    Parameters
-    ----------
-    tests : ndarray of int (b,)
-        Of each isotherm that is searched.
-
-    Returns
-    -------
-    float
-        Of ln evidence.
-    """
+    """Gain of ln evidence that is no chance, where b isotherms of these numbers of tests are searched."""
     return MARGIN + float(np.log(len(COLUMNS) * (tests * (tests - 1) // 2).sum()))
 
 
 def least_beyond(chance: float) -> float:
-    """Gain beyond wrong values that is enough.
-
-    Parameters
-    ----------
-    chance : float
-        The least of values put right.
-
-    Returns
-    -------
-    float
-        Of ln evidence.
-    """
+    """Gain of ln evidence beyond wrong values that is enough; `chance` is the least of values put right."""
     return RIVAL + 2.0 * max(float(np.log(GOOD / max(chance, 1e-300))), 0.0)

@@ -52,24 +52,11 @@ class Required:
 
 
 def required_phase(frequency: ArrayLike, log_modulus: ArrayLike, scatter: ArrayLike = ROUNDING) -> Required:
-    """Phase required by ln|E*| of one isotherm of one specimen: Bode's relation, see the module.
+    """Phase [rad] and its standard error (n,) that ln|E*| of one isotherm of one specimen requires.
 
-    Parameters
-    ----------
-    frequency : array_like (n,)
-        [Hz].
-    log_modulus : array_like (n,)
-        ln|E*|.
-    scatter : array_like
-        Standard deviation of ln|E*| of one test, or of each (n,).
+    Bode's relation, see the module. `frequency` (n,) in Hz; `scatter`: standard deviation of ln|E*| of one test, or of
+    each (n,).
 
-    Returns
-    -------
-    Required
-        Phase [rad] and its standard error, (n,) each.
-
-    Examples
-    --------
     >>> power_law = required_phase([0.1, 1.0, 10.0], [0.0, 0.3 * np.log(10.0), 0.3 * np.log(100.0)])
     >>> float(np.degrees(power_law.phase[1]).round())  # 0.3 * 90 degrees
     27.0
@@ -96,18 +83,7 @@ def required_phase(frequency: ArrayLike, log_modulus: ArrayLike, scatter: ArrayL
 
 
 def covariances(frequency: ArrayLike) -> NDArray:
-    """Prior covariance of ln|E*| and phase.
-
-    Parameters
-    ----------
-    frequency : array_like (n,)
-        [Hz].
-
-    Returns
-    -------
-    ndarray (4, 2n, 2n)
-        For each of RIPPLES; phases in rad.
-    """
+    """Prior covariance (4, 2n, 2n) of ln|E*| and phase [rad] at n frequencies [Hz], for each of RIPPLES."""
     log_f = np.log(np.asarray(frequency, float))
     edges = np.arange(log_f.min() - MARGIN, log_f.max() + MARGIN + CELL, CELL)
     modulus = _integral(edges, log_f) - _integral(edges, np.array([log_f.mean()]))

@@ -41,18 +41,7 @@ ONE_MIX = 25.0  # percent by which specimens of one mix hardly differ; T 378 exp
 
 
 def odd(observed: Observations) -> list[dict[str, Any]]:
-    """Isotherms whose |E*| is off the level of their specimen.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    list of dict
-        specimen, temperature_C and factor of |E*| of each.
-    """
+    """Isotherms whose |E*| is off the level of their specimen: specimen, temperature_C and factor of each."""
     level = _levels(observed, observed.logarithm.real)
     found = _beyond_the_median(level) | _told_apart(level, NEAR, 1)
     return [
@@ -62,19 +51,9 @@ def odd(observed: Observations) -> list[dict[str, Any]]:
 
 
 def odd_phases(observed: Observations) -> list[dict[str, Any]]:
-    """Isotherms and specimens whose phase is off.
+    """Isotherms and specimens whose phase is off: specimen, temperature_C (None: a whole specimen), phase_deg.
 
     A departure in proportion to the phase, as of another mix, belongs to a specimen: it is no odd isotherm.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    list of dict
-        specimen, temperature_C (None: of the whole specimen) and phase_deg, the departure.
     """
     phase = np.degrees(observed.logarithm.imag)
     level = _levels(observed, phase)
@@ -94,22 +73,10 @@ def odd_phases(observed: Observations) -> list[dict[str, Any]]:
 def odd_temperatures(
     observed: Observations, levels: list[dict[str, Any]], phases: list[dict[str, Any]]
 ) -> list[dict[str, Any]]:
-    """Where an odd |E*| and an odd phase are those of one wrong temperature.
+    """Where an odd |E*| and an odd phase are those of one wrong temperature: specimen, temperature_C and kelvin.
 
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    levels : list of dict
-        Of `odd`.
-    phases : list of dict
-        Of `odd_phases`.
-
-    Returns
-    -------
-    list of dict
-        specimen, temperature_C and kelvin: by how much the specimen seems warmer than stated; both changes
-        ask for a temperature of one sign, within ALIKE of each other.
+    kelvin is by how much the specimen seems warmer than stated; both changes ask for a temperature of one sign, within
+    ALIKE of each other. The arguments are those of `odd` and `odd_phases`.
     """
     found = []
     for level in levels:
@@ -135,22 +102,7 @@ def odd_temperatures(
 def with_confined(
     phases: list[dict[str, Any]], temperatures: list[dict[str, Any]], confined: Sequence[Mapping[str, Any]]
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Odd phases and temperatures, those that were told beside the last fit in place of others of the same place.
-
-    Parameters
-    ----------
-    phases, temperatures : list of dict
-        Of `odd_phases` and `odd_temperatures`.
-    confined : sequence of mapping
-        Of `confined.Odd.content`.
-
-    Returns
-    -------
-    list of dict
-        Odd phases.
-    list of dict
-        Odd temperatures.
-    """
+    """Odd phases and temperatures, those told beside the last fit in place of others of the same place."""
     channels, sweeps = ([dict(one) for one in confined if key in one] for key in ("phase_deg", "kelvin"))
     whole = {one["specimen"] for one in channels}
     told = {(one["specimen"], one["temperature_C"]) for one in sweeps}
@@ -275,20 +227,7 @@ def _departures(level: Mapping[Place, float]) -> Iterator[tuple[int, float]]:
 
 
 def rows(observed: Observations, found: Iterable[Mapping[str, Any]]) -> NDArray[np.bool_]:
-    """Rows of odd isotherms and specimens.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    found : iterable of mapping
-        Of `odd` or `odd_phases`.
-
-    Returns
-    -------
-    ndarray of bool (n,)
-        True in them.
-    """
+    """Rows (n,) of the isotherms and specimens that `odd` or `odd_phases` found."""
     out = np.zeros(observed.size, bool)
     for one in found:
         here = observed.specimen == observed.names.index(one["specimen"])
@@ -297,36 +236,12 @@ def rows(observed: Observations, found: Iterable[Mapping[str, Any]]) -> NDArray[
 
 
 def sentences(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
-    """What is odd and what to check, a sentence each without its full stop.
-
-    Parameters
-    ----------
-    levels : list of dict
-        Of `odd`.
-    phases : list of dict
-        Of `odd_phases`.
-
-    Returns
-    -------
-    list of str
-        Isotherms in |E*| first.
-    """
+    """What is odd and what to check, a sentence each without its full stop, isotherms in |E*| first."""
     return [f"{what}: check {check}" for what, check in map(described, [*levels, *phases])]
 
 
 def of_temperatures(found: Iterable[Mapping[str, Any]]) -> list[str]:
-    """What `odd_temperatures` found and what to check first, a sentence each without its full stop.
-
-    Parameters
-    ----------
-    found : iterable of mapping
-        Of `odd_temperatures`.
-
-    Returns
-    -------
-    list of str
-        Specimen, nominal temperature [degC] and how much warmer or colder it seems [K].
-    """
+    """What `odd_temperatures` found and what to check first, a sentence each without its full stop."""
     return [
         f"at {one['temperature_C']:g} degC {specimen_named(one['specimen'])} seems {_size(one, 'kelvin', '.2g')} K "
         f"{'warmer' if one['kelvin'] > 0.0 else 'colder'} than stated"
@@ -336,20 +251,7 @@ def of_temperatures(found: Iterable[Mapping[str, Any]]) -> list[str]:
 
 
 def of_exchanged(levels: Sequence[Mapping[str, Any]], temperatures: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Sweeps that look as if each stood in the other's place, a sentence each without its full stop.
-
-    Parameters
-    ----------
-    levels : sequence of mapping
-        Of `odd`.
-    temperatures : sequence of mapping
-        Of `odd_temperatures`.
-
-    Returns
-    -------
-    list of str
-        Two temperatures of a specimen, then two specimens at a temperature.
-    """
+    """Sweeps that look as if each stood in the other's place, a sentence each without its full stop."""
     found = []
     for one, other in combinations(temperatures, 2):
         apart = other["temperature_C"] - one["temperature_C"]
@@ -371,18 +273,7 @@ def of_exchanged(levels: Sequence[Mapping[str, Any]], temperatures: Sequence[Map
 
 
 def described(one: Mapping[str, Any]) -> tuple[str, str]:
-    """What is odd, and what to check, of one of `odd` or `odd_phases`.
-
-    Parameters
-    ----------
-    one : mapping
-        With factor, delay_s or phase_deg, and interval_95 where a fit tells it.
-
-    Returns
-    -------
-    tuple of str
-        What is odd, and what to check.
-    """
+    """What is odd, and what to check, of one of `odd` or `odd_phases`; an interval is told where a fit gives it."""
     others = "what its other temperatures and the other specimens say"
     if "factor" in one:
         return (
@@ -415,53 +306,18 @@ def _size(one: Mapping[str, Any], key: str, digits: str, factor: float = 1.0) ->
 
 
 def if_sound(one: Mapping[str, Any]) -> str:
-    """What new tests show if not the specimen but its tests were odd.
-
-    Parameters
-    ----------
-    one : mapping
-        Of `odd` or `odd_phases`.
-
-    Returns
-    -------
-    str
-        A clause on |E*| or on the phase.
-    """
+    """What new tests show if not the specimen but its tests were odd: a clause on |E*| or on the phase."""
     if "factor" in one:
         return f"|E*| is about {1.0 / one['factor']:.2f} times the old one"
     return f"phase is about {abs(one['phase_deg']):.1f} deg {'lower' if one['phase_deg'] > 0.0 else 'higher'}"
 
 
 def place(one: Mapping[str, Any]) -> str:
-    """An odd isotherm or specimen in words.
-
-    Parameters
-    ----------
-    one : mapping
-        With specimen and temperature_C; None: all its tests.
-
-    Returns
-    -------
-    str
-        For example, specimen 2 at 30 degC.
-    """
+    """An odd isotherm or specimen (temperature_C None) in words, for example specimen 2 at 30 degC."""
     at = "" if one["temperature_C"] is None else f" at {one['temperature_C']:g} degC"
     return specimen_named(one["specimen"]) + at
 
 
 def places(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
-    """Each odd isotherm or specimen once, in words.
-
-    Parameters
-    ----------
-    levels : list of dict
-        Of `odd`.
-    phases : list of dict
-        Of `odd_phases`.
-
-    Returns
-    -------
-    list of str
-        In their order.
-    """
+    """Each odd isotherm or specimen of `odd` and `odd_phases` once, in words."""
     return list(dict.fromkeys(map(place, [*levels, *phases])))

@@ -58,17 +58,7 @@ IN_BROKEN = 1e-3  # factor on STRONG in a broken isotherm, whose departure may b
 
 @dataclass(frozen=True)
 class Suspect:
-    """A doubtful test.
-
-    Parameters
-    ----------
-    row : int
-        Of the observations.
-    reasons : tuple of str
-        Why it is doubtful.
-    used : bool
-        Whether the diagnosis still uses it.
-    """
+    """A doubtful test, with its row, the reasons why, and whether the diagnosis still uses it."""
 
     row: int
     reasons: tuple[str, ...]
@@ -79,18 +69,8 @@ class Suspect:
 class BrokenIsotherm:
     """An isotherm whose phase departs from what |E*| requires by more than single tests explain.
 
-    Parameters
-    ----------
-    temperature : float
-        [degC].
-    frequency : ndarray (k,)
-        [Hz].
-    difference : ndarray (k,)
-        Phase measured less required [degrees], mean over specimens.
-    std_error : ndarray (k,)
-        Of the difference [degrees].
-    specimens : int
-        How many.
+    `temperature` in degC, `frequency` (k,) in Hz; `difference` (k,): phase measured less required, mean over specimens,
+    and `std_error` (k,) in degrees.
     """
 
     temperature: float
@@ -117,20 +97,7 @@ class BrokenIsotherm:
 
 
 def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspect]:
-    """Suspect tests, each with the sentences that a reader can check.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    loo : LooPrediction, optional
-        If it is already computed.
-
-    Returns
-    -------
-    list of Suspect
-        By row.
-    """
+    """Suspect tests by row, each with the sentences that a reader can check; `loo` if it is already computed."""
     if tens := wrong_values.expected_of_tens(observed):
         # Nothing else is judged beside them: they would bend the others, and the scatter with them.
         kept = np.setdiff1d(np.arange(observed.size), list(tens))
@@ -208,21 +175,9 @@ def _shared(
 def broken_isotherms(
     observed: Observations, loo: LooPrediction | None = None, torn: Collection[float] = ()
 ) -> list[BrokenIsotherm]:
-    """Isotherms that contradict themselves as a whole; their single tests are no suspects.
+    """Isotherms that contradict themselves as a whole, ascending; their single tests are no suspects.
 
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    loo : LooPrediction, optional
-        If it is already computed.
-    torn : collection of float
-        Isotherms that follow no one law with the others, of which less evidence is asked for, degC.
-
-    Returns
-    -------
-    list of BrokenIsotherm
-        Ascending.
+    `torn` are isotherms [degC] that follow no one law with the others, of which less evidence is asked for.
     """
     loo = loo or within_isotherm.leave_one_out(observed)
     required, own_error = _required(observed, loo)
@@ -265,20 +220,7 @@ def _required(observed: Observations, loo: LooPrediction) -> tuple[NDArray, NDAr
 
 
 def one_sided(observed: Observations, loo: LooPrediction) -> str:
-    """Whether phases lie on one side of what |E*| alone requires, beyond error.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    loo : LooPrediction
-        What the isotherms say.
-
-    Returns
-    -------
-    str
-        A sentence where at least half of them do; else empty.
-    """
+    """A sentence where at least half of the phases lie, beyond error, on one side of what |E*| requires; else empty."""
     rows = loo.judged & loo.in_place
     apart = np.degrees(observed.logarithm.imag - loo.required)[rows]
     far = np.abs(apart) > 2.0 * np.degrees(loo.required_error[rows])
@@ -293,22 +235,7 @@ def one_sided(observed: Observations, loo: LooPrediction) -> str:
 
 
 def table(observed: Observations, found: list[Suspect], loo: LooPrediction) -> pd.DataFrame:
-    """The phase measured and the one that |E*| alone requires, and what is suspect.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    found : list of Suspect
-        Of `find`.
-    loo : LooPrediction
-        What the isotherms say.
-
-    Returns
-    -------
-    DataFrame
-        One row for each test.
-    """
+    """One row for each test: the phase measured and the one that |E*| alone requires, and what is suspect."""
     suspect = {one.row: one for one in found}
     flagged = {one.row for one in quality.exceeded(observed)}
     rows = range(observed.size)

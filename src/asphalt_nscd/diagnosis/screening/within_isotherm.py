@@ -53,24 +53,10 @@ ASIDE = 100.0  # variance that takes a value out
 class LooPrediction:
     """What the isotherms say of each value; columns 0 and 1 are ln|E*| and phase [rad].
 
-    Parameters
-    ----------
-    judged : ndarray of bool (n,)
-        Whether the isotherm has tests enough.
-    expected, std_error : ndarray (n, 2)
-        What the rest of the isotherm asks for, the scatter of one test included.
-    chance : ndarray (n, 3)
-        Of a departure as large in ln|E*|, in the phase, or in both, where neither is asked for the other.
-    required, required_error : ndarray (n,)
-        Phase that |E*| alone requires [rad].
-    log_evidence : ndarray (n, 4, 5)
-        ln evidence of each ripple and bend.
-    scatter : ndarray (n, 2)
-        Of single tests.
-    delay : float
-        Between the channels [s], common to all tests, which the expected phase holds.
-    exchanged : tuple of Exchange
-        Readings that stand in each other's place; everything else here is of the readings put right.
+    `judged`: of tests enough; `expected`, `std_error` (n, 2): by the rest of the isotherm, with the scatter of one
+    test; `chance` (n, 3): of a departure as large in ln|E*|, phase, or both, neither asked for the other; `required`
+    (n,): phase by |E*| alone [rad]; `log_evidence` (n, 4, 5): of each ripple and bend; `delay` between channels [s],
+    which `expected` holds. If readings were `exchanged`, everything else is of the readings put right.
     """
 
     judged: NDArray[np.bool_]
@@ -386,34 +372,12 @@ class _Table:
 
 
 def most_doubtful(tests: int) -> int:
-    """How many tests of an isotherm may be doubtful: a third, and one at least.
-
-    Parameters
-    ----------
-    tests : int
-        Of the isotherm.
-
-    Returns
-    -------
-    int
-        With more doubtful ones nothing would say which are sound.
-    """
+    """How many tests of an isotherm may be doubtful, a third, one at least: with more, none is known to be sound."""
     return max(1, tests // MOST_DOUBTFUL)
 
 
 def leave_one_out(observed: Observations) -> LooPrediction:
-    """Each value of the table held against the rest of its isotherm.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    LooPrediction
-        What the isotherms say.
-    """
+    """Each value of the table held against the rest of its isotherm."""
     table = _Table(observed)
     if not table.groups:
         return table.leave_one_out()
@@ -443,18 +407,7 @@ def leave_one_out(observed: Observations) -> LooPrediction:
 
 
 def blocks(observed: Observations) -> NDArray[np.int64]:
-    """Specimen, isotherm and amplitude of each test.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    ndarray of int (n,)
-        Number of the three together.
-    """
+    """Number (n,) of the specimen, isotherm and amplitude of each test together."""
     columns = [observed.specimen, observed.isotherm]
     if observed.amplitude is not None:
         columns.append(observed.amplitude)

@@ -44,23 +44,10 @@ def _sets(tests: int) -> tuple[tuple[NDArray[np.int64], float], ...]:
 def likeliest(
     precision: NDArray, pull: NDArray, weighed: NDArray, room: int
 ) -> list[tuple[float, NDArray[np.int64]]]:
-    """For each of b isotherms of k tests the likeliest set of wrong values.
+    """For each of b isotherms of k tests the likeliest set of wrong values: its ln odds over none, and the values.
 
-    Parameters
-    ----------
-    precision : ndarray (b, m, 2k, 2k)
-        Of each ripple and bend.
-    pull : ndarray (b, m, 2k)
-        Precision times values.
-    weighed : ndarray (b, m)
-        ln evidence as given.
-    room : int
-        Tests that may be wrong at once.
-
-    Returns
-    -------
-    list of tuple of float and ndarray of int (b,)
-        Its ln odds over none, and the values.
+    Values are numbered moduli first, then phases. `precision` (b, m, 2k, 2k) of each ripple and bend, `pull` (b, m,
+    2k): precision times values, `weighed` (b, m): ln evidence as given, `room`: tests that may be wrong at once.
     """
     tests = pull.shape[2] // 2
     whole = logsumexp(weighed, axis=1)[:, None]
@@ -81,20 +68,10 @@ def likeliest(
 
 
 def expected_of_tens(observed: Observations) -> dict[int, float]:
-    """Tests whose |E*| is ten times what the others of their sweep ask for, or a tenth: a decimal point.
+    """|E*| [Pa] expected of tests, by row, that are ten times what their sweep asks for, or a tenth.
 
-    Every other test of the sweep must say so, by the phase of both (Kramers and Kronig to first order), and the other
-    specimens, where they have the condition. No error of a test does that.
-
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    dict of int to float
-        |E*| [Pa] that the sweep asks for, of each such row.
+    The cause is a decimal point. Every other test of the sweep must say so, by the phase of both (Kramers and Kronig to
+    first order), and the other specimens, where they have the condition. No error of a test does that.
     """
     modulus, phase = observed.logarithm.real, observed.logarithm.imag
     found = {}

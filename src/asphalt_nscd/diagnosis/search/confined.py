@@ -66,20 +66,7 @@ class Odd:
         return _CAUSES[_AS[self.kind]].parameters[0].high
 
     def content(self, widened: float, highest: float) -> dict[str, Any]:
-        """As `diagnosis.json` holds it, among what is odd or contradictory.
-
-        Parameters
-        ----------
-        widened : float
-            Factor on its interval, as on those of all names.
-        highest : float
-            Frequency [Hz] at which the phase of a delay is told.
-
-        Returns
-        -------
-        dict
-            An entry of `odd_phases`, `odd_temperatures` or `contradictory_isotherms`.
-        """
+        """The fault as diagnosis.json holds it, its interval times `widened`, a delay's phase at `highest` [Hz]."""
         low, high = interval_95(self.size, self.std_error, widened)
         how_sure = {"interval_95": [low, high], "probability": self.probability}
         at = {"temperature_C": self.isotherm}
@@ -125,21 +112,8 @@ class _Beside:
 def find(state: State, surveyed: Survey) -> tuple[list[Odd], list[float], list[Odd]]:
     """Faults of one place beside the last fit, and isotherms that follow no one law with the others.
 
-    Parameters
-    ----------
-    state : State
-        The last fit.
-    surveyed : Survey
-        All causes that it does not hold, estimated there.
-
-    Returns
-    -------
-    list of Odd
-        Those likelier than not, the likeliest first.
-    list of float
-        Torn isotherms [degC], once these faults are taken off.
-    list of Odd
-        Every fault that the table can show, at its detection limit.
+    Returns the faults likelier than not, the likeliest first; torn isotherms [degC], once these are taken off; and
+    every fault that the table can show, at its detection limit.
     """
     beside, noise = _beside(state)
     every, effects = _effects(state)

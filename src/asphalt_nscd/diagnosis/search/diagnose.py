@@ -67,50 +67,18 @@ class Diagnosis:
         return self.ladder.doubts
 
     def established(self, rung: Rung) -> bool:
-        """Whether a name is more than the likeliest: no rival, with a name or without, carried by the whole table.
-
-        Parameters
-        ----------
-        rung : Rung
-            Of its ladder.
-
-        Returns
-        -------
-        bool
-            Never for a table of too few tests.
-        """
+        """Whether the whole table carries a name and it has no rival, named or not; never of too few tests."""
         return not self.too_few and rung.probability >= NAMED and self.taken_off(rung)
 
     def probability(self, rung: Rung) -> float:
-        """Probability of a name, as it is stated.
-
-        Parameters
-        ----------
-        rung : Rung
-            Of its ladder.
-
-        Returns
-        -------
-        float
-            Calibrated on drawn tables: what else speaks for or against the name counts too.
-        """
+        """Probability of a name as stated, calibrated on drawn tables: all that speaks for or against it counts."""
         return stated(rung.probability, self.established(rung), rung.candidate.key in self.doubts)
 
     def taken_off(self, rung: Rung) -> bool:
         """Whether law.json is free of a cause, and the extended simulation holds it.
 
-        What the table itself speaks against stays in the data.
-
-        Parameters
-        ----------
-        rung : Rung
-            Of its ladder.
-
-        Returns
-        -------
-        bool
-            Not where a rival fits as well, where there are doubts, or where it hangs on one isotherm,
-            frequency or specimen.
+        What the table itself speaks against stays in the data: not where a rival fits as well, where there are doubts,
+        or where it hangs on one isotherm, frequency or specimen.
         """
         if rung.rivals or rung.candidate.key in self.doubts:
             return False
@@ -125,32 +93,10 @@ def diagnose(
     seed: int = 0,
     use_suspects: bool = False,
 ) -> Diagnosis:
-    """Diagnose a table.
+    """Diagnose a table: ladder of causes, law, limits and notes.
 
-    Parameters
-    ----------
-    observed : Observations
-        Measured tests.
-    scatter_stated : tuple of float, optional
-        Of |E*| (relative) and of the phase [rad], where replicates do not tell.
-    catalogue : tuple of Cause
-        Causes that are looked for.
-    draws : int
-        Of what chance alone would give.
-    seed : int
-        Of the draws.
-    use_suspects : bool
-        Whether tests that contradict their own isotherm are used all the same.
-
-    Returns
-    -------
-    Diagnosis
-        Ladder of causes, law, limits and notes.
-
-    Raises
-    ------
-    InputError
-        For too few tests or frequencies, and for tests that are copies of others.
+    `scatter_stated` of |E*| (relative) and of the phase [rad], where replicates do not tell; `draws` of what chance
+    alone would give; `use_suspects`: tests that contradict their own isotherm are used all the same.
     """
     require_enough(observed.size, observed.frequencies.size)
     copies.refuse_copies(observed)
@@ -267,20 +213,7 @@ def _in_unit(value: float, unit: str) -> str:
 
 
 def misfit_p_value(fitted: Fitted, noise: Noise) -> float:
-    """Lack of fit: of what the fit leaves beyond the replicates (F test), or a stated scatter (chi-squared).
-
-    Parameters
-    ----------
-    fitted : Fitted
-        A fit with its whitened residuals.
-    noise : Noise
-        Scatter, and the degrees of freedom by which replicates tell it.
-
-    Returns
-    -------
-    float
-        Chance of a misfit as large where the law holds; one where nothing is left to judge by.
-    """
+    """Chance of so large a misfit if the law holds (F test; chi-squared of a stated scatter); 1 if nothing is left."""
     size = fitted.residual.size
     # Priors hold many parameters: what the tests determine is the trace of the hat matrix.
     used = float(np.trace(np.linalg.solve(fitted.precision, fitted.jacobian.T @ fitted.jacobian)))
@@ -364,20 +297,7 @@ def _verdict(diagnosis: Diagnosis) -> str:
 
 
 def cell_residuals(diagnosis: Diagnosis) -> tuple[NDArray, NDArray]:
-    """Mean residual ln E* of each condition after all causes, and its size in standard deviations.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        What was found.
-
-    Returns
-    -------
-    ndarray of complex (c,)
-        ln|E*| and, as its imaginary part, phase [rad]: measured less modelled.
-    ndarray (c,)
-        The larger of the two in standard deviations of the mean.
-    """
+    """Mean residuals ln E* by condition (c,), measured less modelled, and the larger part in standard deviations."""
     observed, fitted = diagnosis.observed, diagnosis.ladder.fitted
     left = observed.logarithm - fitted.modelled
     count = np.bincount(observed.cell)

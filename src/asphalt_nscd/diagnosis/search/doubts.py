@@ -33,23 +33,10 @@ RIVAL = Process("rival", "both")
 def find_doubts(
     plain: Joint, fitted: Fitted, named: Sequence[Candidate], sizes: Sequence[float] = ()
 ) -> dict[Key, list[str]]:
-    """Why names may belong to an effect that the catalogue lacks.
+    """Why names may belong to an effect that the catalogue lacks: sentences by cause and place, for doubtful names.
 
-    Parameters
-    ----------
-    plain : Joint
-        The joint model whose noise is the scatter alone.
-    fitted : Fitted
-        Its last fit, with all causes in it.
-    named : sequence of Candidate
-        The causes, in the order found.
-    sizes : sequence of float (m,)
-        Of the processes of a discrepancy in units of the scatter, where one was fitted.
-
-    Returns
-    -------
-    dict
-        Sentences for each name in doubt, by cause and place.
+    `plain` has the scatter alone as its noise; `sizes` (m,) are those of the processes of a discrepancy in units of the
+    scatter, where one was fitted.
     """
     active = {candidate.key: candidate for candidate in fitted.active}
     found: dict[Key, list[str]] = {}

@@ -23,48 +23,18 @@ FEWEST = 3  # frequencies: one of two says nothing of the other
 
 @dataclass(frozen=True)
 class AtHighest:
-    """What all tests at the highest frequency are off by.
-
-    Parameters
-    ----------
-    frequency : float
-        [Hz].
-    modulus, phase : tuple of float
-        Of ln|E*| and of the phase [rad], each with its standard error.
-    """
+    """What all tests at the highest frequency [Hz] are off by in ln|E*| and phase [rad], each with standard error."""
 
     frequency: float
     modulus: tuple[float, float]
     phase: tuple[float, float]
 
     def rows(self, observed: Observations) -> NDArray[np.bool_]:
-        """Tests (n,) at this frequency.
-
-        Parameters
-        ----------
-        observed : Observations
-            Measured tests.
-
-        Returns
-        -------
-        ndarray of bool (n,)
-            Of all specimens and temperatures.
-        """
+        """Tests (n,) at this frequency, of all specimens and temperatures."""
         return np.asarray(observed.frequency == self.frequency)
 
     def content(self, widened: float) -> dict[str, Any]:
-        """As `diagnosis.json` holds it.
-
-        Parameters
-        ----------
-        widened : float
-            Factor on its intervals, as on those of all names.
-
-        Returns
-        -------
-        dict
-            Of `highest_frequency`.
-        """
+        """The entry `highest_frequency` of `diagnosis.json`; `widened` is the factor on the intervals of all names."""
         return {
             "frequency_Hz": self.frequency,
             "modulus_percent": 100.0 * self.modulus[0],
@@ -82,20 +52,7 @@ def _roots(plain: Joint) -> tuple[NDArray[np.complex128], NDArray[np.complex128]
 
 
 def explains_better(table: Table, candidate: Candidate) -> bool:
-    """Whether such an error makes the tests 20 times as likely as a named cause, in its place.
-
-    Parameters
-    ----------
-    table : Table
-        The last fit.
-    candidate : Candidate
-        The cause in it.
-
-    Returns
-    -------
-    bool
-        False where there are too few frequencies.
-    """
+    """Whether such an error in a cause's place makes the tests 20 times as likely; False if frequencies are too few."""
     if table.plain.observed.frequencies.size < FEWEST:
         return False
     rest, direction, _ = table.without(candidate)
@@ -104,18 +61,7 @@ def explains_better(table: Table, candidate: Candidate) -> bool:
 
 
 def find(table: Table) -> AtHighest | None:
-    """Such an error beside the named causes.
-
-    Parameters
-    ----------
-    table : Table
-        The last fit.
-
-    Returns
-    -------
-    AtHighest or None
-        None where the tests do not speak for it, by AT_HIGHEST.
-    """
+    """Such an error beside the named causes, or None where the tests do not speak for it (AT_HIGHEST)."""
     plain, linear = table.plain, table.linear
     if plain.observed.frequencies.size < FEWEST:
         return None

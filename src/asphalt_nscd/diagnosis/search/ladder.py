@@ -26,21 +26,7 @@ ONE_SIGN = frozenset(cause.name for cause in CATALOGUE if cause.one_sided)
 
 @dataclass(frozen=True)
 class Rung:
-    """One step of the ladder.
-
-    Parameters
-    ----------
-    candidate : Candidate
-        The cause taken.
-    p_value : float
-        Its chance level.
-    before, after : Fitted
-        The fits.
-    rivals : tuple of Candidate
-        Who did as well.
-    probability : float
-        Of the name.
-    """
+    """One step of the ladder: a cause, its chance level, the fits, rivals as good, the probability of the name."""
 
     candidate: Candidate
     p_value: float
@@ -67,40 +53,10 @@ class Remaining:
 class Ladder:
     """What was climbed. Where structure was left, it was climbed anew beside a discrepancy.
 
-    Parameters
-    ----------
-    joint : Joint
-        The model.
-    start : Fitted
-        Its fit without causes.
-    rungs : list of Rung
-        Causes, in the order taken.
-    withdrawn : list of Rung
-        Causes whose interval holds zero, or in whose place an error of the highest frequency explains more.
-    remaining : Remaining, optional
-        What no cause explains.
-    limits : dict of tuple to float
-        Amplitude of each cause and place that these tests would show.
-    unseen : list of Candidate
-        Causes that they would not show.
-    alike : list of tuple of Candidate
-        Pairs that they do not tell apart.
-    discrepancy : dict of Process to float
-        Size of each of its processes in units of the scatter.
-    hangs_on : dict of tuple to list of str
-        What must not be left out for a cause to be seen.
-    estimates : dict of tuple to tuple of float
-        Amplitude and standard error of every cause.
-    odd : list of Odd
-        Faults of one place, which have no rung.
-    torn : list of float
-        Isotherms that follow no one law with the others, degC.
-    smallest : list of Odd
-        Faults of one place, each at its detection limit.
-    doubts : dict of tuple to list of str
-        Of names, see `diagnosis.search.doubts`.
-    at_highest : AtHighest, optional
-        An error of the highest frequency alone.
+    `withdrawn`: interval holds zero, or an error of the highest frequency explains more; `unseen`: not shown by these
+    tests; `alike`: not told apart. By cause and place: `limits` (amplitude that would show), `estimates` (with standard
+    error), `hangs_on` (what must not be left out). `discrepancy`: sizes in units of the scatter. `odd`: faults of one
+    place, which have no rung; `smallest`: such faults at their detection limits; `torn`: isotherms [degC].
     """
 
     joint: Joint
@@ -137,18 +93,7 @@ class Ladder:
         return [one.content(widening(self.estimates_spread), highest) for one in self.odd]
 
     def std_errors(self, candidate: Candidate) -> NDArray[np.float64]:
-        """Standard errors of a named cause in the last fit, that of the amplitude with the discrepancy's sizes.
-
-        Parameters
-        ----------
-        candidate : Candidate
-            Which cause.
-
-        Returns
-        -------
-        ndarray (p,)
-            Of each parameter, in its unit.
-        """
+        """Standard errors (p,) of a named cause in its units; that of the amplitude with the discrepancy's sizes."""
         fitted = self.fitted
         first = fitted.place_of(candidate.key)
         at = slice(first, first + len(candidate.values))
@@ -188,26 +133,7 @@ class Ladder:
 
 
 def climb(joint: Joint, start: Fitted, catalogue: Sequence[Cause], draws: int, seed: int) -> Ladder:
-    """Take causes until none beats chance and a discrepancy without a name, then judge what remains.
-
-    Parameters
-    ----------
-    joint : Joint
-        The model.
-    start : Fitted
-        Its fit without causes.
-    catalogue : sequence of Cause
-        Causes.
-    draws : int
-        Of the chance level.
-    seed : int
-        Of the draws.
-
-    Returns
-    -------
-    Ladder
-        What was climbed.
-    """
+    """Take causes until none beats chance and a discrepancy without a name, then judge what remains."""
     random = np.random.default_rng(seed)
     ladder = Ladder(joint, start)
     # No law common to all temperatures, against which a cause could be held.
@@ -313,20 +239,7 @@ def _interactions(joint: Joint, fitted: Fitted) -> list[Remaining]:
 
 
 def spread_of(estimates: Mapping[tuple, tuple[float, float]], left_out: Set[str]) -> float:
-    """Root mean square of the estimates of causes, in their standard errors; none counts of a sign that it cannot have.
-
-    Parameters
-    ----------
-    estimates : mapping of tuple to tuple of float
-        Amplitude and standard error, by cause and place.
-    left_out : set of str
-        Names of causes that do not count.
-
-    Returns
-    -------
-    float
-        1 at least.
-    """
+    """Root mean square of estimates in their standard errors, 1 at least; those of an impossible sign do not count."""
     squares: dict[str, list[float]] = {}
     for (name, _), (value, error) in estimates.items():
         if name not in left_out and 0.0 < error < np.inf and not (value < 0.0 and name in ONE_SIGN):

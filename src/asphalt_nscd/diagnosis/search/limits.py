@@ -25,30 +25,7 @@ STRONGEST = 3.0 * (USUAL_THRESHOLD + Z_95)  # three times a usual limit
 def detection_limits(
     joint: Joint, fitted: Fitted, candidates: Sequence[Candidate], found: Scores, threshold: float
 ) -> tuple[dict[tuple, float], list[Candidate]]:
-    """Amplitude found with 95 % probability, for each cause and place.
-
-    Of a cause that comes in several shapes, what is enough for most of those that can be seen.
-
-    Parameters
-    ----------
-    joint : Joint
-        The model.
-    fitted : Fitted
-        Where it stands.
-    candidates : sequence of Candidate
-        Causes at their places.
-    found : Scores
-        Their scores.
-    threshold : float
-        z that beats chance.
-
-    Returns
-    -------
-    dict of tuple to float
-        By cause and place.
-    list of Candidate
-        Those never seen.
-    """
+    """Amplitude found with 95 % probability by cause and place (enough for most shapes seen); causes never seen."""
     sizes: dict[tuple, list[float]] = {}
     unseen: dict[tuple, Candidate] = {}
     directions = joint.noise.whiten(chance.candidate_directions(joint, fitted, list(candidates)))
@@ -110,22 +87,7 @@ def _beyond(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, thr
 def alike(
     candidates: Sequence[Candidate], found: Scores, as_good: float
 ) -> list[tuple[Candidate, Candidate]]:
-    """Pairs that even three times the detection limit does not tell apart.
-
-    Parameters
-    ----------
-    candidates : sequence of Candidate
-        Causes at their places.
-    found : Scores
-        Their scores.
-    as_good : float
-        Gain they may differ by.
-
-    Returns
-    -------
-    list of tuple of Candidate
-        Pairs.
-    """
+    """Pairs that even three times the detection limit does not tell apart; `as_good`: gain they may differ by."""
     correlation = found.correlation
     out: dict[tuple, tuple[Candidate, Candidate]] = {}
     for i, one in enumerate(candidates):

@@ -37,22 +37,10 @@ TIMES = 6  # that it is raised at most beside a discrepancy
 
 
 def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]]:
-    """Amplitude of every cause at every place.
+    """Amplitude and standard error, in physical units, of every cause at every place.
 
-    Of a cause that is in the fit, and of each other as if it were the next one. Of several shapes, the one
-    that the table sees best.
-
-    Parameters
-    ----------
-    state : State
-        The last one.
-    surveyed : Survey
-        All causes, estimated there.
-
-    Returns
-    -------
-    dict of tuple to tuple of float
-        Amplitude and standard error in physical units, by cause and place.
+    Of a cause that is in the fit, and of each other as if it were the next one. Of several shapes, the one that the
+    table sees best.
     """
     out: dict[tuple, tuple[float, float]] = {}
     for active in state.fitted.active:
@@ -131,28 +119,7 @@ def _carried_from(state: State, candidate: Candidate, std_error: float, threshol
 def detection_limits(
     state: State, surveyed: Survey, draws: int, random: np.random.Generator
 ) -> tuple[dict[tuple, float], list[Candidate], list[tuple[Candidate, Candidate]]]:
-    """Limits beside the discrepancy of this table.
-
-    Parameters
-    ----------
-    state : State
-        The last one.
-    surveyed : Survey
-        All causes, estimated there.
-    draws : int
-        Of the chance level.
-    random : Generator
-        Whence.
-
-    Returns
-    -------
-    dict of tuple to float
-        By cause and place.
-    list of Candidate
-        Causes never seen in it.
-    list of tuple of Candidate
-        Pairs that look alike.
-    """
+    """Limits beside this table's discrepancy by cause and place, causes never seen in it, and pairs that look alike."""
     sizes: dict[tuple, float] = {}
     unseen: list[Candidate] = []
     alike: list[tuple[Candidate, Candidate]] = []

@@ -55,21 +55,7 @@ NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
 
 @dataclass(frozen=True)
 class Found:
-    """One cause taken.
-
-    Parameters
-    ----------
-    candidate : Candidate
-        The cause.
-    p_value : float
-        How likely by chance.
-    before, after : State
-        The states.
-    rivals : tuple of Candidate
-        Who did as well.
-    probability : float
-        As of `ladder.Rung`.
-    """
+    """One cause taken: its chance level, the states before and after, rivals that did as well, its probability."""
 
     candidate: Candidate
     p_value: float
@@ -92,28 +78,7 @@ class Survey:
 def climb(
     state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
 ) -> tuple[list[Found], State, Survey]:
-    """Causes that beat both chance and a discrepancy without a name, one after the other.
-
-    Parameters
-    ----------
-    state : State
-        To start from.
-    catalogue : sequence of Cause
-        Causes.
-    draws : int
-        Of the chance level.
-    random : Generator
-        Whence.
-
-    Returns
-    -------
-    list of Found
-        In the order taken.
-    State
-        The last one.
-    Survey
-        All causes, estimated there.
-    """
+    """Causes that beat chance and a nameless discrepancy, in the order taken; the last state; all causes estimated."""
     taken: list[Found] = []
     surveyed = survey(state, catalogue)
     while len(taken) < MOST_CAUSES:
@@ -131,26 +96,7 @@ def climb(
 def again(
     state: State, kept: Sequence[Found], catalogue: Sequence[Cause]
 ) -> tuple[list[Found], State, Survey]:
-    """The ascent with some causes alone, in their order.
-
-    Parameters
-    ----------
-    state : State
-        Without any cause.
-    kept : sequence of Found
-        The causes.
-    catalogue : sequence of Cause
-        All causes.
-
-    Returns
-    -------
-    list of Found
-        In the order taken.
-    State
-        The last one.
-    Survey
-        All causes, estimated there.
-    """
+    """The ascent with some causes alone, in their order: what was found, the last state, all causes estimated there."""
     taken: list[Found] = []
     for one in kept:
         candidate = one.after.fitted.active[-1]
@@ -162,20 +108,7 @@ def again(
 
 
 def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
-    """Candidates that the table can show, each estimated beside the discrepancy.
-
-    Parameters
-    ----------
-    state : State
-        Where they are estimated.
-    catalogue : sequence of Cause
-        Causes.
-
-    Returns
-    -------
-    Survey
-        Of each candidate.
-    """
+    """Candidates that the table can show, each estimated beside the discrepancy in this state."""
     candidates, pointing = _pointing(state, catalogue)
     # In a large table the sizes are well determined, and each start takes a second.
     several = state.plain.observed.size <= SEVERAL_STARTS
@@ -311,20 +244,6 @@ def stands(before: State, state: State, taken: Candidate, own: Estimate) -> bool
 
     Its size is not zero. One with shapes of its own follows almost any structure: it must be carried by the whole
     table, and its shapes must not be at the edge of what they may be.
-
-    Parameters
-    ----------
-    before, state : State
-        The fits without the cause and with it.
-    taken : Candidate
-        The cause as fitted.
-    own : Estimate
-        Its size.
-
-    Returns
-    -------
-    bool
-        True if it does.
     """
     if not taken.shaped:
         return bool(abs(own.z) >= CONFIDENCE)
@@ -352,24 +271,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
 
 
 def largest_by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Vector:
-    """The largest score of a survey in tables without a cause.
-
-    Parameters
-    ----------
-    state : State
-        Where the survey was made.
-    surveyed : Survey
-        Whose candidates.
-    draws : int
-        How many tables.
-    random : Generator
-        Whence.
-
-    Returns
-    -------
-    ndarray (draws,)
-        Drawn.
-    """
+    """The largest score of a survey in each of `draws` tables without a cause (draws,)."""
     correlation, _ = likelihood.correlation(state.model, surveyed.pointing, state.variances)
     k = surveyed.one_sided.size
     scores = Scores(np.zeros(k), np.ones(k), np.ones(k, bool), correlation)
@@ -377,24 +279,10 @@ def largest_by_chance(state: State, surveyed: Survey, draws: int, random: np.ran
 
 
 def hangs_on(state: State, candidate: Candidate, before: State | None = None) -> list[str]:
-    """What must not be left out for a cause to be seen.
+    """What must not be left out for a cause to be seen: isotherms, frequencies, specimens; best none.
 
-    A cause with shapes of its own is judged by what it gains over a fit without it: its shapes make its size
-    uncertain long before they make it doubtful that there is one.
-
-    Parameters
-    ----------
-    state : State
-        With the cause.
-    candidate : Candidate
-        The cause.
-    before : State, optional
-        The fit without it, made here if not given.
-
-    Returns
-    -------
-    list of str
-        Isotherms, frequencies, specimens; best none.
+    A cause with shapes of its own is judged by what it gains over a fit without it: its shapes make its size uncertain
+    long before they make it doubtful that there is one. `before` is that fit, made here if not given.
     """
     observed = state.plain.observed
     sign, carried = np.sign(candidate.values[0]), []

@@ -28,20 +28,7 @@ CONFIRMED_BY = "the same law in other packings and sizes: packing.csv, docs/mapp
 
 
 def simulated(campaign: str | Path, observed: Observations) -> Complex:
-    """ln E* of a campaign of simulated tests at the condition of each measured test, mean over samples.
-
-    Parameters
-    ----------
-    campaign : path
-        Table of simulated tests.
-    observed : Observations
-        Measured tests.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        NaN where no condition of the campaign is near.
-    """
+    """ln E* (n,) of simulated tests at each measured condition, mean over samples; NaN where none is near."""
     tests = read_tests([campaign]).groupby(KEYS)[MODULUS].mean().reset_index()
     temperature, frequency = (tests[name].to_numpy(float) for name in KEYS)
     kelvin = np.abs(observed.temperature[:, None] - temperature) / NEAR_DEGREES
@@ -54,18 +41,7 @@ def simulated(campaign: str | Path, observed: Observations) -> Complex:
 
 
 def over_law(campaign: str | Path) -> pd.Series:
-    """|E*| over that of the law of each sample, in its tests without broken bonds.
-
-    Parameters
-    ----------
-    campaign : path
-        Folder of simulated tests.
-
-    Returns
-    -------
-    Series
-        By sample, mean over its tests.
-    """
+    """|E*| over that of the law, by sample: mean over its tests without broken bonds in a folder of simulated tests."""
     tests = read_tests([campaign], ["broken_bonds"])
     # A broken bond softens a specimen whatever its mapping.
     whole = tests[tests["broken_bonds"] == 0]
@@ -75,22 +51,7 @@ def over_law(campaign: str | Path) -> pd.Series:
 def bond_mapping(
     paper: str | Path, facets: str | Path, averages: dict[str, dict[str, dict[str, float]]]
 ) -> tuple[dict[str, Any] | None, str]:
-    """The rung of the mapping of the law to the bonds.
-
-    Parameters
-    ----------
-    paper, facets : path
-        Tables of simulated tests by either mapping.
-    averages : dict
-        Their errors by temperature.
-
-    Returns
-    -------
-    dict or None
-        None where the paper's bonds return the law.
-    str
-        A sentence that says which.
-    """
+    """The rung of the mapping of the law to the bonds (None where the paper's return the law), and a sentence."""
     ratio, by_facets = over_law(paper), over_law(facets)
     if ratio.empty or by_facets.empty:
         return None, "bond_mapping is not judged: no simulated test is without broken bonds."
@@ -120,18 +81,7 @@ def bond_mapping(
 
 
 def void(campaign: str | Path) -> str:
-    """What to say of a campaign that stands alone, without another mapping beside it.
-
-    Parameters
-    ----------
-    campaign : path
-        Table of simulated tests.
-
-    Returns
-    -------
-    str
-        A sentence.
-    """
+    """What to say of a campaign that stands alone, without another mapping beside it, in a sentence."""
     ratio = over_law(campaign)
     of_law = f"; |E*| of its samples is {_range(ratio)} of the law" if len(ratio) else ""
     return f"No rung bond_mapping: the campaign has one mapping of the law to the bonds{of_law}."

@@ -54,25 +54,10 @@ def material_law(
 ) -> Fit[Spectrum]:
     """One law with a WLF shift of the measurements without the causes that are taken off.
 
-    Of two temperatures or four tests, which determine no WLF constants, with an Arrhenius shift. What the
-    tests leave open is as usual for asphalt concrete. Errors of |E*| and of the phase count alike: the misfit
-    of the form exceeds the scatter of the tests, which is therefore no measure of what to trust. The
-    covariance is that of the free curve at the tests, as `reported` has it, carried to the parameters, with
-    the misfit of the form.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Whose tests.
-    used : ndarray of bool (n,), optional
-        Tests that the law is fitted to, all by default.
-    form : str
-        One of `LAWS`.
-
-    Returns
-    -------
-    Fit of Spectrum
-        The law; nine parameters with 2S2P1D.
+    Of two temperatures or four tests, which determine no WLF constants, with an Arrhenius shift. What the tests leave
+    open is as usual for asphalt concrete. Errors of |E*| and of the phase count alike: the misfit of the form exceeds
+    the scatter, which is therefore no measure of what to trust. The covariance is that of the free curve at the tests
+    (see `reported`), carried to the parameters, with that misfit.
     """
     observed = diagnosis.observed
     modulus = observed.modulus / effect_taken_off(diagnosis)
@@ -96,22 +81,7 @@ def material_law(
 
 
 def misfit_of_form(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> tuple[float, float]:
-    """Root mean square of the law less the free curve.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Whose free curve.
-    law : Spectrum
-        Of the mix.
-    used : ndarray of bool (n,)
-        Tests that count.
-
-    Returns
-    -------
-    tuple of float
-        Of ln|E*|, and of the phase [rad].
-    """
+    """Root mean square of the law less the free curve, in ln|E*| and in the phase [rad]; `used` (n,) tests count."""
     observed = diagnosis.observed
     free = _without_causes(diagnosis)[used]
     off = log_residual(free, law.complex_modulus(observed.omega[used], observed.temperature[used]))
@@ -120,22 +90,7 @@ def misfit_of_form(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_])
 
 
 def compared(diagnosis: Diagnosis, fit: Fit[Spectrum], used: NDArray[np.bool_]) -> list[dict[str, Any]]:
-    """Each law of `LAWS` with its number of parameters and its errors, as in `law_misses`.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Whose tests.
-    fit : Fit
-        The one taken.
-    used : ndarray of bool (n,)
-        Tests that count.
-
-    Returns
-    -------
-    list of dict
-        One for each law.
-    """
+    """Each law of `LAWS` with its number of parameters and its errors, as in `law_misses`; `fit` is the one taken."""
     found = []
     for name, kind in LAWS.items():
         law = fit.law if isinstance(fit.law, kind) else material_law(diagnosis, used, name).law
@@ -145,22 +100,7 @@ def compared(diagnosis: Diagnosis, fit: Fit[Spectrum], used: NDArray[np.bool_]) 
 
 
 def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) -> list[str]:
-    """What the law is fitted without, and that it cannot take the form of the mix, where it cannot.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Whose tests.
-    law : Spectrum
-        Of the mix.
-    without : sequence of str
-        What was left out of the fit.
-
-    Returns
-    -------
-    list of str
-        Sentences.
-    """
+    """Sentences: what the law is fitted without, and that it cannot take the form of the mix, where it cannot."""
     both = f"the free master curve with {'it' if len(without) == 1 else 'them'}"
     notes = [f"law.json is fitted without {joined(without)}, {both}."] if without else []
     off = misfit_of_form(diagnosis, law, np.ones(diagnosis.observed.size, bool))
@@ -176,22 +116,7 @@ def law_notes(diagnosis: Diagnosis, law: Spectrum, without: Sequence[str] = ()) 
 
 
 def law_misses(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> dict[str, float]:
-    """Mean relative errors of the law with what was taken off, as in Table 4.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Whose tests.
-    law : Spectrum
-        Of the mix.
-    used : ndarray of bool (n,)
-        The tests of its fit.
-
-    Returns
-    -------
-    dict of str to float
-        In percent.
-    """
+    """Mean relative errors [%] of the law with what was taken off, as in Table 4; `used` (n,) are tests of its fit."""
     observed = diagnosis.observed
     shown = effect_taken_off(diagnosis) * law.complex_modulus(observed.omega, observed.temperature)
     found = errors(diagnosis, np.where(used, np.log(np.abs(shown)) + 1j * np.angle(shown), np.nan))
@@ -199,18 +124,7 @@ def law_misses(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> 
 
 
 def prior_notes(fit: Fit) -> list[str]:
-    """What the tests do not determine of the law.
-
-    Parameters
-    ----------
-    fit : Fit
-        Of the law.
-
-    Returns
-    -------
-    list of str
-        A sentence; none if they determine all.
-    """
+    """What the tests do not determine of the law, in a sentence; none if they determine all."""
     names, sizes = [], []
     for name in fit.from_prior:
         term, unit, factor = TERMS.get(name, (name, "", 1.0))
@@ -227,18 +141,7 @@ def prior_notes(fit: Fit) -> list[str]:
 
 
 def effect_taken_off(diagnosis: Diagnosis) -> Complex:
-    """E* with the causes that are taken off over that of the mix alone, by the last fit.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Whose causes.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        Of each test.
-    """
+    """E* of each test (n,) with the causes that are taken off over that of the mix alone, by the last fit."""
     ladder = diagnosis.ladder
     off = {rung.candidate.key for rung in ladder.rungs if diagnosis.taken_off(rung)}
     active = tuple(candidate for candidate in ladder.fitted.active if candidate.key in off)
@@ -254,14 +157,8 @@ def _without_causes(diagnosis: Diagnosis) -> Complex:
 class Sample:
     """One numerical specimen, and the simulated tests on it.
 
-    Parameters
-    ----------
-    number : int
-        From 0; it stands for the measured specimen of this number.
-    amplitude : float
-        Of the tests [m].
-    tests : sequence of tuple
-        Temperature [degC], frequency [Hz], file of the bond law to write.
+    `number`, from 0, stands for the measured specimen of this number (more samples than specimens: for these in turn);
+    `amplitude` in m; each of `tests` is temperature [degC], frequency [Hz] and the file of the bond law to write.
     """
 
     number: int
@@ -279,23 +176,7 @@ def extend(
 ) -> None:
     """Write the bond law (a Kelvin chain) of each test of one sample, and its rig.
 
-    The law goes into the bonds as it is: with facets, |E*| of a specimen is that of its law
-    (docs/mapping.md).
-
-    Parameters
-    ----------
-    diagnosis_file : path
-        diagnosis.json.
-    law_file : path
-        law.json.
-    measured : path
-        Table of the measurements.
-    geometry : path or mapping
-        Of the measured specimens.
-    sample : Sample
-        Numerical specimen and tests.
-    rig_output : path
-        JSON file to write.
+    The law goes into the bonds as it is: with facets, |E*| of a specimen is that of its law (docs/mapping.md).
     """
     named = causes_taken_off(diagnosis_file)
     observed, _ = read_observations(measured, geometry)
@@ -339,24 +220,7 @@ def _bond_modulus(
 
 
 def causes_taken_off(diagnosis_file: str | Path) -> list[Candidate]:
-    """The causes of a diagnosis.json that its law is free of, with their values; bonds and law are not among
-    them.
-
-    Parameters
-    ----------
-    diagnosis_file : path
-        diagnosis.json.
-
-    Returns
-    -------
-    list of Candidate
-        In the order of the ladder.
-
-    Raises
-    ------
-    InputError
-        For a file of another version.
-    """
+    """Causes, with values and in ladder order, that the law of a diagnosis.json is free of; not bonds and law."""
     content = read_json(diagnosis_file)
     causes = {cause.name: cause for cause in CATALOGUE}
     out = []

@@ -19,79 +19,27 @@ CLOSE = 0.01  # change of the objective at which a fit that is only compared wit
 
 
 def simulated_by(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> Complex:
-    """How the numerical specimen shows a law.
-
-    Parameters
-    ----------
-    joint : Joint
-        Model of the table.
-    fitted : Fitted
-        Law, scales and causes.
-    specimen : NumericalSpecimen
-        Numerical specimen.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        ln E*.
-    """
+    """ln E* (n,) of the tests as the numerical specimen shows the law, scales and causes of a fit."""
     observed = joint.observed
     law = joint.apparent(fitted.law, ())[0]
     return fitted.modelled + np.log(specimen.apparent_modulus(observed.omega, law) / law)
 
 
 def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Complex:
-    """How the numerical specimen shows a Burgers law fitted at each temperature.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Of the tests.
-    specimen : NumericalSpecimen
-        Numerical specimen.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        ln E*.
-    """
+    """ln E* (n,) as the numerical specimen shows a Burgers law fitted at each temperature."""
     return simulated_by(diagnosis.baseline_joint, diagnosis.baseline, specimen)
 
 
 def by_tests_alone(diagnosis: Diagnosis) -> Joint:
-    """The joint model whose noise is the scatter of single tests.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Of the tests.
-
-    Returns
-    -------
-    Joint
-        Without what a laboratory adds.
-    """
+    """The joint model whose noise is the scatter of single tests, without what a laboratory adds."""
     return Joint(diagnosis.observed, diagnosis.ladder.joint.base, diagnosis.alone)
 
 
 def nearest(diagnosis: Diagnosis, fitted: Fitted, specimen: NumericalSpecimen) -> Complex:
-    """How the numerical specimen shows the law and the causes of a fit, as near to the tests as they come.
+    """ln E* (n,) as the numerical specimen shows the law and causes of a fit, as near to the tests as they come.
 
-    Beside what the laboratory adds and a discrepancy, a law that lacks a cause is far from the tests.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Of the tests.
-    fitted : Fitted
-        Law, scales and causes to start from.
-    specimen : NumericalSpecimen
-        Numerical specimen.
-
-    Returns
-    -------
-    ndarray of complex (n,)
-        ln E*.
+    Beside what the laboratory adds and a discrepancy, a law that lacks a cause is far from the tests. `fitted` is the
+    start.
     """
     joint = by_tests_alone(diagnosis)
     return simulated_by(joint, joint.fit(fitted.law, fitted.scales, fitted.active, CLOSE), specimen)
@@ -111,20 +59,7 @@ def _frame(diagnosis: Diagnosis, logarithm: Complex) -> pd.DataFrame:
 
 
 def errors(diagnosis: Diagnosis, logarithm: Complex) -> dict[str, dict[str, float]]:
-    """Mean relative errors by isotherm, as in Table 4, of the tests that were simulated.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Of the tests.
-    logarithm : ndarray of complex (n,)
-        ln E*; NaN where not simulated.
-
-    Returns
-    -------
-    dict of dict of float
-        In percent, by quantity and isotherm.
-    """
+    """Mean relative errors [%] by quantity and isotherm, as in Table 4, of tests simulated (ln E* (n,) not NaN)."""
     there = ~np.isnan(logarithm)
     point = {"temperature_C": diagnosis.observed.isotherm, "condition": diagnosis.observed.cell}
     simulated = _frame(diagnosis, logarithm).assign(**point)[there]
@@ -159,22 +94,10 @@ def _misses(diagnosis: Diagnosis, logarithm: Complex, rows: NDArray[np.bool_]) -
 def before_and_after(
     diagnosis: Diagnosis, before: Complex, after: Complex, inner: bool = False
 ) -> dict[str, Any]:
-    """Errors before and after: of single tests, and of averages over specimens at each temperature.
+    """Errors before and after (ln E* (n,)): of single tests, and of averages over specimens at each temperature.
 
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Of the tests.
-    before, after : ndarray of complex (n,)
-        ln E*.
-    inner : bool
-        Single tests at the temperatures between others only; an isotherm at an end, left out, is
-        extrapolated, which tells of the law's end and of no cause.
-
-    Returns
-    -------
-    dict
-        As diagnosis.json has it.
+    With `inner`, single tests at the temperatures between others only; an isotherm at an end, left out, is
+    extrapolated, which tells of the law's end and of no cause.
     """
     temperature = diagnosis.observed.isotherm
     rows = np.full(temperature.size, True)
@@ -186,20 +109,7 @@ def before_and_after(
 
 
 def averages(diagnosis: Diagnosis, before: Complex, after: Complex) -> dict[str, dict[str, dict[str, float]]]:
-    """Errors before and after by temperature, as in Table 4, of the conditions that hold both.
-
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Of the tests.
-    before, after : ndarray of complex (n,)
-        ln E*; NaN where not simulated.
-
-    Returns
-    -------
-    dict
-        By temperature, quantity, before and after [%].
-    """
+    """Errors [%] by temperature and quantity, before and after, as in Table 4, where neither ln E* (n,) is NaN."""
     before, after = np.where(np.isnan(after), after, before), np.where(np.isnan(before), before, after)
     first, second = (errors(diagnosis, logarithm) for logarithm in (before, after))
     return {
@@ -211,22 +121,10 @@ def averages(diagnosis: Diagnosis, before: Complex, after: Complex) -> dict[str,
 def residual_table(
     diagnosis: Diagnosis, specimen: NumericalSpecimen, before: Complex | None = None
 ) -> pd.DataFrame:
-    """Each test: measured, simulated before and after, and complex residuals ln(measured / simulated).
+    """Content of residuals.csv: each test measured, simulated before and after, and ln(measured / simulated), complex.
 
-    Parameters
-    ----------
-    diagnosis : Diagnosis
-        Of the tests.
-    specimen : NumericalSpecimen
-        Numerical specimen.
-    before : ndarray of complex (n,), optional
-        ln E* of a simulation as it was (NaN: not simulated); else with a Burgers law fitted at each
-        temperature.
-
-    Returns
-    -------
-    DataFrame
-        Content of residuals.csv.
+    `before` is ln E* (n,) of a simulation as it was (NaN: not simulated); else with a Burgers law fitted at each
+    temperature.
     """
     observed, ladder = diagnosis.observed, diagnosis.ladder
     frame = _frame(diagnosis, observed.logarithm)

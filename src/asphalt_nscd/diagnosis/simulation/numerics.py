@@ -17,29 +17,11 @@ NEAR_FREQUENCY = 0.1  # relative
 
 
 def of_campaign(simulations: str | Path, temperatures: Vector, frequencies: Vector) -> dict[str, float | int]:
-    """Largest departures of simulated tests from what is no numerics.
+    """Largest departures of simulated tests from what is no numerics, of |E*| [%] and of the phase [degrees].
 
-    time_stepping: from the law of the bonds times the specimen's own ratio, tests without broken bonds;
-    broken_bonds: the same in the others; peak_picking: of the paper's reduction from the harmonic fit.
-
-    Parameters
-    ----------
-    simulations : path
-        Table of simulated tests.
-    temperatures : ndarray (n,)
-        Of each measured test [degC].
-    frequencies : ndarray (n,)
-        Of each measured test [Hz].
-
-    Returns
-    -------
-    dict of str to float
-        Of |E*| in percent, of the phase in degrees.
-
-    Raises
-    ------
-    InputError
-        Where no test was simulated at a condition that was measured.
+    time_stepping: from the law of the bonds times the specimen's own ratio, tests without broken bonds; broken_bonds:
+    the same in the others; peak_picking: of the paper's reduction from the harmonic fit. Measured tests are at
+    `temperatures` [degC] and `frequencies` [Hz], (n,); refused where none of them was simulated.
     """
     tests = read_tests([simulations], ["broken_bonds", "E_peak_MPa", "phase_peak_deg"])
     near = np.abs(tests["temperature_C"].to_numpy()[:, None] - temperatures) <= NEAR_DEGREES

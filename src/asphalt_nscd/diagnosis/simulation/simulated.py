@@ -24,19 +24,7 @@ SHIPPED = "specimen.h5"
 
 @dataclass(frozen=True)
 class NumericalSpecimen:
-    """A specimen in reduced form; coordinate 0 is the driven head.
-
-    Parameters
-    ----------
-    stiffness : ndarray (k, k)
-        K [m].
-    mass : ndarray (k, k)
-        M [kg].
-    geometry : Shape
-        Of its test.
-    name : str
-        Of the specimen.
-    """
+    """A specimen in reduced form: stiffness K (k, k) [m], mass M (k, k) [kg]; coordinate 0 is the driven head."""
 
     stiffness: NDArray[np.float64]
     mass: NDArray[np.float64]
@@ -44,20 +32,7 @@ class NumericalSpecimen:
     name: str
 
     def apparent_modulus(self, omega: ArrayLike, modulus: ArrayLike) -> NDArray[np.complex128]:
-        """E* by Eqs. (1)-(2) of the simulated test.
-
-        Parameters
-        ----------
-        omega : array_like (n,)
-            Angular frequencies [rad/s].
-        modulus : array_like of complex (n,)
-            E* of the bonds [Pa].
-
-        Returns
-        -------
-        ndarray of complex (n,)
-            [Pa].
-        """
+        """E* (n,) [Pa] by Eqs. (1)-(2) of the simulated test, at omega [rad/s] and E* of the bonds [Pa]."""
         omega, modulus = np.asarray(omega, float), np.asarray(modulus, complex)
         dynamic = modulus[:, None, None] * self.stiffness - (omega**2)[:, None, None] * self.mass
         motion = np.linalg.solve(dynamic[:, 1:, 1:], -dynamic[:, 1:, :1])
@@ -73,15 +48,7 @@ class NumericalSpecimen:
 
 
 def reduce_model(model_file: str | Path, output: str | Path) -> None:
-    """Keep of a condensed model what a diagnosis needs; write it.
-
-    Parameters
-    ----------
-    model_file : path
-        HDF5 file of `condense`.
-    output : path
-        HDF5 file to write.
-    """
+    """Keep of a condensed model (HDF5 file of `condense`) what a diagnosis needs; write it to another HDF5 file."""
     from asphalt_nscd.bending.model import read_model
     from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
 
@@ -92,23 +59,7 @@ def reduce_model(model_file: str | Path, output: str | Path) -> None:
 
 
 def read_specimen(path: str | Path | None = None) -> NumericalSpecimen:
-    """Read a file of `reduce_model`.
-
-    Parameters
-    ----------
-    path : path, optional
-        HDF5 file; None for the specimen shipped with the package.
-
-    Returns
-    -------
-    NumericalSpecimen
-        In reduced form.
-
-    Raises
-    ------
-    InputError
-        Where the file is not one.
-    """
+    """Read an HDF5 file of `reduce_model`; None for the specimen shipped with the package."""
     if path is None:
         with as_file(files("asphalt_nscd.diagnosis.simulation") / SHIPPED) as shipped:
             return read_specimen(shipped)

@@ -46,20 +46,7 @@ NO_QUALITY_COLUMNS = "There are no quality columns: tests are judged by modulus 
 
 
 def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
-    """Label and sentences of each row, those with nothing to say left out.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-    left : mapping of str to float, optional
-        As in `verdict.on_simulation`.
-
-    Returns
-    -------
-    list of tuple
-        In the order in which they are read.
-    """
+    """Label and sentences of each row in reading order, empty rows left out; `left` as in `verdict.on_simulation`."""
     simulated = left is not None or verdict.bonded(content)
     certain, possible = (_told(verdict.faults(content), content, wanted) for wanted in (True, False))
     effects, likely = (_told(verdict.effects(content), content, wanted) for wanted in (True, False))
@@ -83,18 +70,7 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
 
 
 def text(content: Content) -> str:
-    """The rows as text of WIDTH columns.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-
-    Returns
-    -------
-    str
-        Labels in the first column; a blank line before the next tests and after them.
-    """
+    """The rows as text of WIDTH columns: labels first, a blank line before the next tests and after them."""
     told, lines, above = rows(content), [], ""
     for label, said in told:
         if "Next tests" in (label, above):
@@ -108,18 +84,7 @@ def text(content: Content) -> str:
 
 
 def sure(rung: Content) -> bool:
-    """Whether a cause is established; an older diagnosis does not say, and then it is.
-
-    Parameters
-    ----------
-    rung : mapping
-        Of the ladder in diagnosis.json.
-
-    Returns
-    -------
-    bool
-        True for a certain fault or effect, False for a possible one.
-    """
+    """Whether a cause is established, not merely possible; an older diagnosis does not say, and then it is."""
     return bool(rung.get("established", True))
 
 

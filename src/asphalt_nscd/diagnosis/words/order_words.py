@@ -31,25 +31,9 @@ CLEAR = 2.0 * float(np.log(1000.0))  # strength from which two causes are told a
 class Open:
     """An open question, and how a reader is told what the tests would do for it.
 
-    Parameters
-    ----------
-    kind : str
-        kept, metal, apart, repeat, level, linear or reach.
-    question : Question
-        What is asked of the tests.
-    about : str
-        What it is about, in words.
-    other : str
-        What that is held against, in words.
-    candidate, rival : Candidate, optional
-        The causes that are meant, None where it is about a departure.
-    departure : Departure, optional
-        That it is about.
-    alike : bool
-        Whether the two causes fitted the tests equally well.
-    hidden : float
-        Strength that the tests done have less than the linear model says, for the law follows a large effect
-        further than a small one.
+    `kind`: kept, metal, apart, repeat, level, linear or reach; `about` and `other`: what it is about and held against,
+    in words; `alike`: `candidate` and `rival` fitted the tests equally well. `hidden`: strength that the tests done
+    have less than the linear model says, because the law follows a large effect further than a small one.
     """
 
     kind: str
@@ -63,18 +47,7 @@ class Open:
     hidden: float = 0.0
 
     def at(self, order: Order) -> bool:
-        """Whether an order tests the departure that a question is about.
-
-        Parameters
-        ----------
-        order : Order
-            To the laboratory.
-
-        Returns
-        -------
-        bool
-            True at its specimen, isotherm and frequency.
-        """
+        """Whether an order tests the departure that a question is about: its specimen, isotherm and frequency."""
         one, sweep = self.departure, order.sweep
         return (
             one is not None
@@ -91,21 +64,7 @@ class Open:
 
 @dataclass
 class Order:
-    """One order to the laboratory.
-
-    Parameters
-    ----------
-    sweep : Sweep
-        The tests.
-    specimens : list of str
-        Their names.
-    hours : float
-        What it costs.
-    nats : float
-        What it is expected to tell.
-    helps : dict of int to tuple of float
-        Of each question that it helps, the strength before and after.
-    """
+    """One order to the laboratory: hours, gain [nats], and the strength before and after of each question helped."""
 
     sweep: Sweep
     specimens: list[str]
@@ -116,17 +75,7 @@ class Order:
 
 @dataclass(frozen=True)
 class Context:
-    """What an order stands in.
-
-    Parameters
-    ----------
-    later : bool
-        Others come before it.
-    checked : bool
-        A check of gauges is among them.
-    typed : bool
-        Somebody typed the tests in.
-    """
+    """What an order stands in: others come before it, a check of gauges is among them, somebody typed the tests in."""
 
     later: bool = False
     checked: bool = False
@@ -134,22 +83,7 @@ class Context:
 
 
 def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[str]:
-    """What the tests would do for the questions that they help most.
-
-    Parameters
-    ----------
-    order : Order
-        To the laboratory.
-    questions : sequence of Open
-        Open ones.
-    context : Context
-        What the order stands in.
-
-    Returns
-    -------
-    list of str
-        Sentences.
-    """
+    """What the tests would do for the questions that they help most, in sentences."""
     helped = [(questions[k], *strengths) for k, strengths in order.helps.items()]
     tested = [one for one, *_ in helped if one.at(order)]
     here = f"{order.sweep.temperature:g} degC"
@@ -185,20 +119,7 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
 
 
 def purpose(order: Order, questions: Sequence[Open]) -> str:
-    """What an order is for, in a few words, without its first reason's numbers.
-
-    Parameters
-    ----------
-    order : Order
-        To the laboratory.
-    questions : sequence of Open
-        Open ones.
-
-    Returns
-    -------
-    str
-        "to ...".
-    """
+    """What an order is for, in a few words ("to ..."), without its first reason's numbers."""
     helped = [questions[k] for k in order.helps]
     repeated = [one for one in helped if one.kind == "repeat"]
     if any(map(_copied, repeated)):
@@ -290,20 +211,7 @@ def _reason(one: Open, before: float, after: float) -> str:
 
 
 def act(one: Order, done: Observations) -> str:
-    """What an order asks for.
-
-    Parameters
-    ----------
-    one : Order
-        The order.
-    done : Observations
-        The tests there are.
-
-    Returns
-    -------
-    str
-        A clause.
-    """
+    """What an order asks for, in a clause; `done` are the tests there are."""
     where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
     half = ", at half the strain" if one.sweep.half_strain else ""
     again = " again" if _all_tested(one, done) else ""

@@ -40,101 +40,33 @@ WORSE = 1.05  # times the misfit without a cause, from which it is told that the
 
 
 def odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
-    """Odd isotherms in |E*|, then odd isotherms and specimens in phase.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: odd_levels and odd_phases, where it has them.
-
-    Returns
-    -------
-    list of dict
-        Specimen, temperature_C and factor.
-    list of dict
-        Specimen, temperature_C (None: all its tests) and phase_deg.
-    """
+    """Odd isotherms in |E*|, then odd isotherms and specimens (temperature_C None) in phase."""
     return content.get("odd_levels", []), content.get("odd_phases", [])
 
 
 def not_used(content: Content) -> list[Content]:
-    """Suspect tests that the diagnosis left out.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: suspect_tests, where it has it.
-
-    Returns
-    -------
-    list of mapping
-        In its order.
-    """
+    """Suspect tests that the diagnosis left out, in their order."""
     return [one for one in content.get("suspect_tests", []) if not one["used"]]
 
 
 def doubtful(content: Content) -> list[Content]:
-    """Suspect tests that the diagnosis used all the same.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: suspect_tests, where it has it.
-
-    Returns
-    -------
-    list of mapping
-        In its order.
-    """
+    """Suspect tests that the diagnosis used all the same, in their order."""
     return [one for one in content.get("suspect_tests", []) if one["used"]]
 
 
 def with_suspects(content: Content) -> str:
-    """What the suspect tests would have changed, had they been used; empty where no test is left out.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json, where the tests were diagnosed a second time with all.
-
-    Returns
-    -------
-    str
-        A sentence.
-    """
+    """What the suspect tests would have changed, had they been used; empty where no test is left out."""
     return _changed(content, "with_suspects", "If the tests left out were kept")
 
 
 def without_doubtful(content: Content) -> str:
-    """What is named without the doubtful tests that are used; empty where there are none.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json, where the tests were diagnosed a second time without them.
-
-    Returns
-    -------
-    str
-        A sentence.
-    """
+    """What is named without the doubtful tests that are used; empty where there are none."""
     when = "If the doubtful tests were left out"
     return _changed(content, "without_doubtful", when) if doubtful(content) else ""
 
 
 def only_with_suspects(content: Content) -> str:
-    """What only the tests left out speak for, or against; empty where they change no name.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json, where the tests were diagnosed a second time with all.
-
-    Returns
-    -------
-    str
-        A sentence.
-    """
+    """What only the tests left out speak for, or against; empty where they change no name."""
     return _changed(content, "with_suspects", "With these tests", alike="")
 
 
@@ -153,52 +85,17 @@ def _changed(content: Content, key: str, when: str, alike: str = "name the same 
 
 
 def named(content: Content, cause: str) -> bool:
-    """Whether a cause, or the law or the bonds, is a rung of the ladder.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: ladder.
-    cause : str
-        Its name.
-
-    Returns
-    -------
-    bool
-        At any place.
-    """
+    """Whether a cause, or the law or the bonds, is a rung of the ladder at any place."""
     return any(rung["cause"] == cause for rung in content["ladder"])
 
 
 def place_of_test(one: Content) -> str:
-    """`specimen 2, 30 degC, 10 Hz`.
-
-    Parameters
-    ----------
-    one : mapping
-        With specimen, temperature_C and frequency_Hz.
-
-    Returns
-    -------
-    str
-        What a reader finds the row of a table by.
-    """
+    """A test in words, as a reader finds its row in a table: `specimen 2, 30 degC, 10 Hz`."""
     return f"{specimen_named(one['specimen'])}, {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
 
 
 def of_intervals(content: Content) -> str:
-    """What a size with +- says, where any is told; more than it says where the tests lie far from the fit.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-
-    Returns
-    -------
-    str
-        One sentence or two; empty where nothing was named.
-    """
+    """What +- on a size says, and more where the tests lie far from the fit; empty where nothing was named."""
     if not content["ladder"]:
         return ""
     factor = widened(content)
@@ -211,51 +108,18 @@ def of_intervals(content: Content) -> str:
 
 
 def widened(content: Content) -> float:
-    """Factor on the intervals of a diagnosis.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json; an older one does not state the spread.
-
-    Returns
-    -------
-    float
-        One where the tests lie as near to the fit as their scatter explains, else above one.
-    """
+    """Factor on the intervals: one where scatter explains how far the tests lie from the fit, else above one."""
     return written.widening(content.get("estimates_spread", 1.0))
 
 
 def origin(content: Content) -> list[str]:
-    """What the origin of the data means for a reader.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: origin, where it has it.
-
-    Returns
-    -------
-    list of str
-        A sentence for each known word of the origin; one that quotes it, if none is known.
-    """
+    """What the origin of the data means, a sentence for each known word; if none is known, one that quotes it."""
     stated = content.get("origin", "measured")
     return [sentence for word, sentence in ORIGINS.items() if word in stated] or [f"The data are {stated}."]
 
 
 def law_of_the_mix(content: Content) -> tuple[str, str] | None:
-    """The relaxation spectrum with its shift, and how sure it is; none where no test asks for one.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-
-    Returns
-    -------
-    tuple of str, or None
-        The shift with its parameters, and how sure it is.
-    """
+    """The relaxation spectrum with its shift, and how sure it is, in words; None where no test asks for one."""
     for rung in content["ladder"]:
         if rung["cause"] == LAW:
             told = f"Time-temperature shift of the free master curve: {_shift(rung, widened(content))}"
@@ -278,18 +142,7 @@ def _shift(rung: Content, factor: float) -> str:
 
 
 def causes(content: Content) -> list[tuple[str, str]]:
-    """Each named cause with its size; what its sign means, how sure the name is and what would confirm it.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-
-    Returns
-    -------
-    list of tuple of str
-        In the order in which the ladder took them, without the relaxation spectrum.
-    """
+    """Each named cause with its size, then the meaning of its sign, how sure it is and what would confirm it."""
     return [
         (
             f"{cause_words(rung)}: {size(rung, content)}".removesuffix(": "),
@@ -313,18 +166,7 @@ def _to_confirm(rung: Content) -> str:
 
 
 def meaning(rung: Content) -> str:
-    """What the sign of the amplitude says; empty for a cause that has but one.
-
-    Parameters
-    ----------
-    rung : mapping
-        Of the ladder in diagnosis.json.
-
-    Returns
-    -------
-    str
-        A sentence and a space.
-    """
+    """What the sign of the amplitude says, a sentence and a space; empty for a cause that has but one."""
     if rung["cause"] not in SIGNS:
         return ""
     above, below = SIGNS[rung["cause"]]
@@ -370,52 +212,18 @@ def _doubts(rung: Content, content: Content) -> list[str]:
 
 
 def probability(rung: Content) -> str:
-    """Of a name at its place; that another cause or none holds is the rest.
-
-    Parameters
-    ----------
-    rung : mapping
-        Of the ladder in diagnosis.json.
-
-    Returns
-    -------
-    str
-        In whole percent.
-    """
+    """Probability of a name at its place in whole percent; that another cause or none holds is the rest."""
     return f"{100.0 * rung['probability']:.0f} %"
 
 
 def worsens(rung: Content) -> bool:
-    """Whether the tests, counted alike, fit worse with a cause than without it.
-
-    Parameters
-    ----------
-    rung : mapping
-        Of the ladder in diagnosis.json; an older one does not state the misfit.
-
-    Returns
-    -------
-    bool
-        True from WORSE times the misfit.
-    """
+    """Whether the tests, counted alike, fit worse with a cause than without it (above WORSE times the misfit)."""
     fits = rung.get("gain", {}).get("in_sample", {}).get("rms_over_scatter")
     return bool(fits) and fits["after"] > WORSE * fits["before"]
 
 
 def lacking(content: Content) -> str:
-    """What a table has too little of for a name to be certain.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: reading, provenance, scatter and tested, where it has them.
-
-    Returns
-    -------
-    str
-        Clauses on temperatures, specimens and frequencies; if it lacks none of them, what certainty
-        takes.
-    """
+    """Clauses on what a table has too little of for a name to be certain; if nothing, on what certainty takes."""
     at, few = len(isotherms(content)), []
     if 0 < at < LEAST_ISOTHERMS:
         tested = f"{counted(at, 'temperature')} {'was' if at == 1 else 'were'} tested"
@@ -428,89 +236,32 @@ def lacking(content: Content) -> str:
 
 
 def in_words(name: str) -> str:
-    """`temperature_bias @ 21.0` in words.
-
-    Parameters
-    ----------
-    name : str
-        A cause, and behind @ an isotherm [degC] or a specimen.
-
-    Returns
-    -------
-    str
-        As `cause_words` gives it.
-    """
+    """A cause and its place (isotherm [degC] or specimen) as `temperature_bias @ 21.0`, in words."""
     cause, _, place = name.partition(" @ ")
     where = float(place) if place and written.CONFINED_TO.get(cause) == "temperature_C" else place or None
     return cause_words({"cause": cause, "where": where})
 
 
 def alone(content: Content) -> bool:
-    """Whether nothing tells the scatter: one specimen, and none was stated.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: scatter and provenance.
-
-    Returns
-    -------
-    bool
-        If True, the scatter is what a smooth law leaves.
-    """
+    """Whether nothing tells the scatter (one specimen, none stated), so that it is what a smooth law leaves."""
     known = content.get("scatter", {}).get("from_replicates", True)
     return not (known or content.get("provenance", {}).get("scatter_stated"))
 
 
 def isotherms(content: Content) -> list[float]:
-    """Isotherms tested [degC]; none where a file does not say.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: reading.
-
-    Returns
-    -------
-    list of float
-        Nominal temperatures.
-    """
+    """Nominal temperatures tested [degC]; none where a file does not say."""
     return list(content.get("reading", {}).get("isotherms_C", []))
 
 
 def more_than_scatter(content: Content) -> bool:
-    """Whether the named causes leave structure, whatever the verdict says of their names.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: largest_pattern_left; where it has it, lack_of_fit_p_value.
-
-    Returns
-    -------
-    bool
-        By the lack of fit or by the largest pattern that is left, at half the chance of a step each.
-    """
+    """Whether named causes leave structure, by lack of fit or largest pattern left, at half a step's chance each."""
     pattern = content["largest_pattern_left"]
     chances = [content.get("lack_of_fit_p_value", 0.0), 1.0 if pattern is None else pattern["p_value"]]
     return min(chances) <= 0.5 * ALPHA_PER_STEP
 
 
 def size(rung: Content, content: Content) -> str:
-    """Amplitude of a cause with its 95 % interval; empty where these tests do not give one.
-
-    Parameters
-    ----------
-    rung : mapping
-        Of the ladder in diagnosis.json.
-    content : mapping
-        Of diagnosis.json, with the factor on its intervals.
-
-    Returns
-    -------
-    str
-        With the unit that a reader sees; at a bound of the search, that the search ends there.
-    """
+    """Amplitude of a cause with 95 % interval and unit; or that the search ends there; empty where none is given."""
     amplitude = next(iter(rung["parameters"].values()))
     if amplitude["std_error"] is not None and amplitude["value"] in BOUNDS.get(rung["cause"], ()):
         value, unit = shown(amplitude["value"], amplitude["unit"])
@@ -521,20 +272,7 @@ def size(rung: Content, content: Content) -> str:
 
 
 def estimate(one: Content, factor: float = 1.0) -> str:
-    """A value with its 95 % interval, times a factor, and unit.
-
-    Parameters
-    ----------
-    one : mapping
-        Value, unit, std_error, and interval_95 where it is not symmetric.
-    factor : float
-        On the standard error.
-
-    Returns
-    -------
-    str
-        Value +- half of the interval, or its two ends; the value alone without a standard error.
-    """
+    """A value with unit and 95 % interval times `factor`: +- half of it, or both ends; none without std_error."""
     value, unit = shown(one["value"], one["unit"])
     if one["std_error"] is None:
         return f"{three_digits(value)} {typed(unit)}".rstrip()
@@ -548,34 +286,12 @@ def estimate(one: Content, factor: float = 1.0) -> str:
 
 
 def typed(unit: str) -> str:
-    """A unit as it is typed without a degree sign.
-
-    Parameters
-    ----------
-    unit : str
-        With the degree sign or without.
-
-    Returns
-    -------
-    str
-        Deg or degC in its place.
-    """
+    """A unit as it is typed without a degree sign: deg or degC."""
     return {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
 
 
 def cause_words(rung: Content) -> str:
-    """`temperature bias at 30 degC`, `loose clamp of specimen 2`.
-
-    Parameters
-    ----------
-    rung : mapping
-        With cause and where: a specimen (str), an isotherm [degC] (float) or None.
-
-    Returns
-    -------
-    str
-        The cause without underscores, and its place.
-    """
+    """A cause and its place in words: `temperature bias at 30 degC`, `loose clamp of specimen 2`."""
     words, where = rung["cause"].replace("_", " "), rung["where"]
     if where is None:
         return words
@@ -583,34 +299,12 @@ def cause_words(rung: Content) -> str:
 
 
 def capital(words: str) -> str:
-    """With a capital first; units keep theirs.
-
-    Parameters
-    ----------
-    words : str
-        The beginning of a sentence.
-
-    Returns
-    -------
-    str
-        All after the first letter as it was.
-    """
+    """The words with a capital first; units keep theirs."""
     return f"{words[:1].upper()}{words[1:]}"
 
 
 def an(words: str) -> str:
-    """The words with their article.
-
-    Parameters
-    ----------
-    words : str
-        Not empty.
-
-    Returns
-    -------
-    str
-        By the first letter, a vowel or not.
-    """
+    """The words (not empty) with their article, by the first letter, a vowel or not."""
     return f"{'an' if words[0] in 'aeiou' else 'a'} {words}"
 
 

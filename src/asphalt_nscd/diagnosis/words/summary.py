@@ -11,35 +11,13 @@ from asphalt_nscd.diagnosis.words.sentences import Content
 
 
 def answer(content: Content) -> str:
-    """What to use, what to correct, what to leave out, what to test next.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-
-    Returns
-    -------
-    str
-        The rows of `brief`; below them what +- means, where they have it.
-    """
+    """What to use, what to correct, what to leave out, what to test next; below it what +- means."""
     told = brief.text(content)
     return f"{told}\n\n{sentences.of_intervals(content)}" if "+-" in told else told
 
 
 def summary(content: Content) -> str:
-    """The answer, and the reasons, one part after another; parts with nothing to say are left out.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-
-    Returns
-    -------
-    str
-        Parts with their titles, a blank line between them.
-    """
+    """The answer and the reasons, one titled part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
     law, named = sentences.law_of_the_mix(content), sentences.causes(content)
     simulated, two_laws = verdict.on_simulation(content), verdict.two_laws(content)

@@ -7,18 +7,7 @@ from asphalt_nscd.diagnosis.written import shown, three_digits
 
 
 def scatter_rows(content: Content) -> list[list[str]]:
-    """Isotherm, then between and within specimens: percent of |E*| and degrees of phase.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: repeatability, where it has it.
-
-    Returns
-    -------
-    list of list of str
-        A row for each isotherm, then one for all; none without replicates.
-    """
+    """Scatter between and within specimens [% of |E*|, degrees] by isotherm, then of all; empty without replicates."""
     found = content.get("repeatability")
     if found is None:
         return []
@@ -27,18 +16,7 @@ def scatter_rows(content: Content) -> list[list[str]]:
 
 
 def measured_limits(content: Content) -> list[list[str]]:
-    """Cause, its stated limit, and at one, two and three times it how often it was named of how many tries.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json, where limits were measured.
-
-    Returns
-    -------
-    list of list of str
-        The last cell counts how often another cause was named.
-    """
+    """Cause, its limit, how often it was named of how many tries at 1, 2, 3 times it; how often another was named."""
     rows = []
     for cause, by_times in content.get("measured_limits", {}).items():
         limit = content["detection_limits"][cause]

@@ -23,35 +23,13 @@ LARGEST = 4  # parts of what stays unexplained that are listed
 
 
 def no_cause(content: Content) -> str:
-    """That nothing was named, where nothing was.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: ladder.
-
-    Returns
-    -------
-    str
-        A sentence; empty where a cause was named.
-    """
+    """A sentence that nothing was named; empty where a cause was."""
     named = any(rung["cause"] != "relaxation_spectrum" for rung in content["ladder"])
     return "" if named else "No cause is named."
 
 
 def unseen(content: Content) -> list[str]:
-    """How large the commonest faults may be without these tests showing them; empty where none was judged.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json, with its detection limits.
-
-    Returns
-    -------
-    list of str
-        In the order of UNSEEN, without causes that were named.
-    """
+    """How large the commonest unnamed faults may be without these tests showing them; empty where none was judged."""
     named = {rung["cause"] for rung in content["ladder"]}
     never = [one["cause"] for one in content["not_testable"]]
     told = []
@@ -80,18 +58,7 @@ def _size(value: float, unit: str) -> str:
 
 
 def left(content: Content) -> list[str]:
-    """What no cause explains, largest first, in percent of |E*| or degrees of phase.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-
-    Returns
-    -------
-    list of str
-        At most LARGEST parts of the discrepancy, or the largest pattern; empty where all is explained.
-    """
+    """At most LARGEST parts that no cause explains, largest first, in % of |E*| or degrees; empty if none is left."""
     parts = sorted(content.get("discrepancy", []), key=lambda one: -one["size"])[:LARGEST]
     if parts:
         return [*(_part_left(one, content) for one in parts), *remarks(content)]
@@ -106,19 +73,8 @@ def left(content: Content) -> list[str]:
 def remarks(content: Content, most: int = LARGEST) -> list[str]:
     """On the sizes of what is left: what they include, and that few specimens do not tell which one is odd.
 
-    Of few specimens each has a large part in the common curve that it is compared with.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-    most : int
-        How many parts the reader is shown.
-
-    Returns
-    -------
-    list of str
-        Sentences without their full stop.
+    Of few specimens each has a large part in the common curve that it is compared with. `most` is how many parts the
+    reader is shown; sentences are without their full stop.
     """
     places = levels.places(*odd(content))
     said = [f"These sizes include what is odd: {joined(places)}"] if places else []
@@ -155,22 +111,7 @@ def _part_left(one: Content, content: Content) -> str:
 
 
 def size_left(part: str, value: float, scatter: Mapping[str, float]) -> str:
-    """Size of a part of the discrepancy, in percent or degrees.
-
-    Parameters
-    ----------
-    part : str
-        "modulus", "phase" or "both".
-    value : float
-        In units of the scatter.
-    scatter : mapping of str to float
-        modulus_percent and phase_deg of one test.
-
-    Returns
-    -------
-    str
-        Of the phase in degrees; of the modulus, or of both, in percent of |E*|.
-    """
+    """Size of a part of the discrepancy (`value` in units of scatter), in % of |E*| or, of the phase, in degrees."""
     if part == "phase":
         return f"{_one_digit(value * scatter['phase_deg'])} deg in the phase"
     return f"{_one_digit(value * scatter['modulus_percent'])} % in |E*|"

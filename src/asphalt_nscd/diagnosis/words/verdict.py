@@ -33,18 +33,7 @@ MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above wh
 
 
 def mixes(content: Content) -> str:
-    """What a reader must know first: specimens that are hardly of one mix; empty where they may be.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json, with the scatter between specimens.
-
-    Returns
-    -------
-    str
-        Two sentences, where |E*| scatters between specimens by more than ONE_MIX percent.
-    """
+    """That specimens are hardly of one mix: |E*| scatters between them by more than ONE_MIX percent; else empty."""
     spread = (content.get("repeatability") or {}).get("between")
     if spread is None or spread["E_percent"] <= levels.ONE_MIX:
         return ""
@@ -55,50 +44,17 @@ def mixes(content: Content) -> str:
 
 
 def faults(content: Content) -> list[Content]:
-    """Named faults of the tests.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: ladder.
-
-    Returns
-    -------
-    list of mapping
-        Rungs in the order in which the ladder took them.
-    """
+    """Named faults of the tests, in the order in which the ladder took them."""
     return [rung for rung in content["ladder"] if rung["cause"] not in OF_THE_MIX]
 
 
 def effects(content: Content) -> list[Content]:
-    """Named effects of the mix itself beside its relaxation: what it does while it is tested.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: ladder.
-
-    Returns
-    -------
-    list of mapping
-        Rungs in the order in which the ladder took them.
-    """
+    """Named effects of the mix itself beside its relaxation: what it does while it is tested, in the ladder's order."""
     return [rung for rung in content["ladder"] if rung["cause"] in EFFECTS]
 
 
 def correction(rung: Content) -> str:
-    """What to do to the tests to be rid of a fault, where it is one number.
-
-    Parameters
-    ----------
-    rung : mapping
-        Of the ladder in diagnosis.json.
-
-    Returns
-    -------
-    str
-        A clause with the number; empty for a cause that no one number corrects.
-    """
+    """What to do to the tests to be rid of a fault, where it is one number; empty where no one number corrects it."""
     value = next(iter(rung["parameters"].values()))["value"]
     if rung["cause"] == "channel_delay":
         return f"{_less(360.0 * value, 'deg per Hz')} the phase"
@@ -119,18 +75,8 @@ def _less(value: float, unit: str) -> str:
 def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
     """One sentence: what the simulation misses with the paper's laws, and with what was found.
 
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-    left : mapping of str to float, optional
-        Errors in percent of "E" and "phase" that tests simulated with it have left; else those of the
-        diagnosis.
-
-    Returns
-    -------
-    str
-        Mean errors over the temperatures; why nothing is judged, where nothing is.
+    Mean errors over the temperatures, or why nothing is judged. `left`: errors [%] of "E" and "phase" that tests
+    simulated with it have left; else those of the diagnosis.
     """
     ladder = content["ladder"]
     if not ladder:
@@ -166,18 +112,7 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
 
 
 def two_laws(content: Content) -> list[str]:
-    """Where both are fitted, what the free master curve and law.json are, and why they miss by different amounts.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json.
-
-    Returns
-    -------
-    list of str
-        Two paragraphs; empty where one of the two is not fitted.
-    """
+    """What the free master curve and law.json are, and why their errors differ; empty unless both are fitted."""
     misses = content.get("law_misses")
     if misses is None or not named(content, LAW) or bonded(content):
         return []
@@ -198,18 +133,7 @@ def two_laws(content: Content) -> list[str]:
 
 
 def held_against(content: Content) -> str:
-    """What a law is held against.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: scatter.
-
-    Returns
-    -------
-    str
-        The tests themselves where nothing was repeated.
-    """
+    """What a law is held against: the mean of the specimens, or the tests themselves where nothing was repeated."""
     return "the mean of the specimens" if content["scatter"]["from_replicates"] else "the tests"
 
 
@@ -220,18 +144,7 @@ def _noun(rung: Content) -> str:
 
 
 def bonded(content: Content) -> bool:
-    """Whether simulations took part, whose bonds come first among what they missed.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: ladder.
-
-    Returns
-    -------
-    bool
-        By a rung of the bond mapping.
-    """
+    """Whether the ladder has a rung of the bond mapping: simulations took part, and their bonds come first."""
     return named(content, BOND_MAPPING)
 
 
@@ -303,19 +216,7 @@ def _left_out(content: Content) -> tuple[dict[float, float], float] | None:
 
 
 def predicted_badly(content: Content) -> str:
-    """Where the law predicts temperatures that were left out of its fit badly, between others or beyond; else empty.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json, with the errors at temperatures left out.
-
-    Returns
-    -------
-    str
-        "at temperatures that were not tested" or "beyond the tested temperatures"; errors above POOR
-        percent.
-    """
+    """Where the law predicts temperatures left out of its fit with errors above POOR percent, in words; else empty."""
     found = _left_out(content)
     if found is None:
         return ""
@@ -326,19 +227,7 @@ def predicted_badly(content: Content) -> str:
 
 
 def beyond_the_tests(content: Content) -> list[str]:
-    """How far off the law is at temperatures left out of its fit, where that forbids to use it there.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json, with the errors at temperatures left out.
-
-    Returns
-    -------
-    list of str
-        Errors at the coldest and the warmest temperature, and between them; empty where the law predicts
-        well.
-    """
+    """A sentence on errors at temperatures left out of the fit, where they forbid to use the law there; else empty."""
     found = _left_out(content)
     if found is None or not predicted_badly(content):
         return []
@@ -367,35 +256,14 @@ def _wrong(temperature: float, content: Content) -> bool:
 
 
 def predicts_badly(gain: dict[str, Any], inner: bool) -> bool:
-    """Whether what is left out is predicted much worse than before, which may have seen it.
+    """Whether errors at what is left out exceed POOR percent and MUCH_WORSE times those before.
 
-    Parameters
-    ----------
-    gain : dict
-        Of a rung: errors in percent before and after.
-    inner : bool
-        Only of temperatures between others.
-
-    Returns
-    -------
-    bool
-        For errors above POOR percent and MUCH_WORSE times those before.
+    The fit before may have seen what is left out. `inner` counts only temperatures between others.
     """
     found = mean_averages(gain, inner)
     return any(errors["after"] > max(MUCH_WORSE * errors["before"], POOR) for errors in found.values())
 
 
 def files(content: Content) -> str:
-    """Which files of a folder gave no test; empty where all did.
-
-    Parameters
-    ----------
-    content : mapping
-        Of diagnosis.json: reading, where it has it.
-
-    Returns
-    -------
-    str
-        A sentence for each file.
-    """
+    """A sentence for each file of a folder that gave no test; empty where all did."""
     return " ".join(content.get("reading", {}).get("files_without_tests", []))

@@ -23,17 +23,10 @@ ENOUGH_ITERATIONS = 15  # of a solution with factors of the bonds as they were
 
 @dataclass(frozen=True)
 class Jumps:
-    """How far a jump goes: until the fastest bond or the cycles have changed so much, no further than the
-    specimen may.
+    """Limits of a jump over many cycles, each as a share.
 
-    Parameters
-    ----------
-    bond : float
-        What the fastest bond may lose of itself, unless `growth` allows more.
-    growth : float
-        By which the cycles may always grow, over those gone.
-    stiffness : float
-        What the specimen may lose of itself at most.
+    `bond` is what the fastest bond may lose, unless `growth` of the cycles gone allows more; `stiffness` is what
+    the specimen may lose at most.
     """
 
     bond: float = 0.1
@@ -41,35 +34,16 @@ class Jumps:
     stiffness: float = 0.01
 
     def finer(self, times: float) -> Jumps:
-        """Shorter jumps.
-
-        Parameters
-        ----------
-        times : float
-            How many times shorter.
-
-        Returns
-        -------
-        Jumps
-            All three limits over `times`.
-        """
+        """Jumps so many `times` shorter: all three limits over `times`."""
         return Jumps(self.bond / times, self.growth / times, self.stiffness / times)
 
 
 @dataclass(frozen=True)
 class FatigueHistory:
-    """What became of the bonds; a row for each jump, its start.
+    """What became of the bonds, with a row for the start of each jump.
 
-    Parameters
-    ----------
-    cycles : ndarray (j,)
-        Cycles gone.
-    stiffness : ndarray (j,)
-        Of the head, over that of sound bonds.
-    lost : ndarray (j,)
-        Number of bonds lost.
-    damage : ndarray (b,)
-        Of each bond, at the end.
+    `cycles` (j,) have gone; `stiffness` (j,) is that of the head over that of sound bonds; `lost` (j,) counts the bonds
+    lost; `damage` (b,) is that of each bond at the end.
     """
 
     cycles: np.ndarray
@@ -78,52 +52,17 @@ class FatigueHistory:
     damage: np.ndarray
 
     def life(self, share: float = 0.5) -> float:
-        """Cycles at which a share of the stiffness is left, interpolated between jumps.
-
-        Parameters
-        ----------
-        share : float
-            Of the stiffness of sound bonds.
-
-        Returns
-        -------
-        float
-            Cycles; NaN where the stiffness stays above the share.
-        """
+        """Cycles at which a `share` of the sound stiffness is left, interpolated; NaN where more stays."""
         return float(np.interp(-share, -self.stiffness, self.cycles, right=np.nan))
 
 
 def remaining_stiffness(damage: np.ndarray) -> np.ndarray:
-    """What damage leaves of the stiffness of bonds.
-
-    Parameters
-    ----------
-    damage : ndarray (b,)
-        Of each bond.
-
-    Returns
-    -------
-    ndarray (3 b,)
-        Share for each component.
-    """
+    """Share (3 b,) of its stiffness that each component of a bond keeps at `damage` (b,)."""
     return np.repeat(np.maximum(1.0 - damage, LEFT), 3)
 
 
 def strain(opening: np.ndarray, length: np.ndarray) -> np.ndarray:
-    """Amplitude of opening over length.
-
-    Parameters
-    ----------
-    opening : ndarray (3 b,)
-        Of the bonds [m], real or complex.
-    length : ndarray (b,)
-        Of the bonds [m].
-
-    Returns
-    -------
-    ndarray (b,)
-        Norm of the three components over the length.
-    """
+    """Norm (b,) of the `opening` (3 b,) [m], real or complex, over the `length` (b,) [m] of bonds."""
     return np.asarray(np.linalg.norm(opening.reshape(-1, 3), axis=1) / length)
 
 
@@ -135,32 +74,10 @@ def tire(
     until: float = 0.5,
     jumps: Jumps = Jumps(),
 ) -> FatigueHistory:
-    """Drive the head until a share of its stiffness is left. Bonds of infinite strength do not tire.
+    """Drive the head at an `amplitude` [m] until only the share `until` of its first stiffness is left.
 
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    length : ndarray (b,)
-        Of the bonds [m].
-    rate : callable
-        Damage per cycle (b,) at strains (b,).
-    amplitude : float
-        Of the head [m].
-    until : float
-        Share of its first stiffness at which the test ends.
-    jumps : Jumps
-        How many cycles one solution may stand for.
-
-    Returns
-    -------
-    FatigueHistory
-        A row for each jump.
-
-    Raises
-    ------
-    ArithmeticError
-        Where no bond tires at this amplitude.
+    `length` (b,) in m; `rate` gives the damage per cycle (b,) at strains (b,). Bonds of infinite strength do not tire;
+    ArithmeticError where no bond tires at this amplitude.
     """
     tires = np.isfinite(system.strength)
     damage, cycles = np.zeros(length.size), 0.0

@@ -23,16 +23,9 @@ WINDOW = 256
 class PackedBonds:
     """Bonds of an opening operator in global axes; body k has degrees of freedom 6 k, ...
 
-    Parameters
-    ----------
-    operator : csr_matrix (3 b, d)
-        G.
-    mobility : ndarray (d,)
-        dt / mass [s/kg, s/(kg m2)], zero where a velocity is prescribed.
-    law : ndarray (3 b,)
-        Diagonal D of the affine law U = b - D R [m/(N s)].
-    number : type
-        Of single precision a sweep takes little more than half the time.
+    `operator` is G (3 b, d); `mobility` (d,) is dt / mass [s/kg, s/(kg m2)], zero where a velocity is prescribed; `law`
+    (3 b,) is the diagonal D [m/(N s)] of the affine law U = b - D R. With a `number` of single precision a sweep takes
+    little more than half the time.
     """
 
     def __init__(
@@ -80,31 +73,10 @@ class PackedBonds:
         tolerance: float,
         most_sweeps: int,
     ) -> tuple[np.ndarray, np.ndarray, int, float]:
-        """Gauss-Seidel sweeps, forth and back, until the reactions change little.
+        """Gauss-Seidel sweeps, forth and back, until their relative change is below `tolerance`.
 
-        Parameters
-        ----------
-        explicit : ndarray (3 b,)
-            b of the law [m/s].
-        reaction : ndarray (3 b,)
-            R to start from [N].
-        velocity : ndarray (d,)
-            Before R acts [m/s, rad/s].
-        tolerance : float
-            Relative change in a sweep that ends them.
-        most_sweeps : int
-            How many at most.
-
-        Returns
-        -------
-        ndarray (3 b,)
-            Reaction [N].
-        ndarray (d,)
-            Velocity [m/s, rad/s].
-        int
-            Sweeps.
-        float
-            Relative change of the last sweep.
+        `explicit` (3 b,) is b of the law [m/s], `reaction` (3 b,) the start R [N], `velocity` (d,) that before R acts.
+        Returns reaction (3 b,) [N], velocity (d,) [m/s, rad/s], number of sweeps, relative change of the last one.
         """
         motion = self._by_body(velocity, len(self._mobility) - 1)
         # a row has room for eight numbers: the mobility comes with the motion, a fifth less time

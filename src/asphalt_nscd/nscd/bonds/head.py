@@ -17,18 +17,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class HeadDevices:
-    """Devices at the head of a specimen; all zero: the head is driven itself.
+    """Devices at the head of a specimen; if all are zero, the head is driven itself.
 
-    Parameters
-    ----------
-    clamp_compliance : float
-        C of the clamp between actuator and head [m/N].
-    guide_stiffness : float
-        k of a spring between head and ground [N/m].
-    guide_friction : float
-        F_s of a Coulomb slider between head and ground [N].
-    head_mass : float
-        m, moves with the head [kg].
+    `clamp_compliance` C [m/N] lies between actuator and head; `guide_stiffness` k [N/m] and the Coulomb slider of
+    `guide_friction` F_s [N] between head and ground; `head_mass` m [kg] moves with the head.
     """
 
     clamp_compliance: float = 0.0
@@ -38,13 +30,7 @@ class HeadDevices:
 
     @property
     def of_head(self) -> tuple[float, float, float, float]:
-        """The devices for the compiled functions.
-
-        Returns
-        -------
-        tuple of float
-            (C, k, F_s, m).
-        """
+        """The devices (C, k, F_s, m) for the compiled functions."""
         return (
             float(self.clamp_compliance),
             float(self.guide_stiffness),

@@ -7,31 +7,11 @@ from asphalt_nscd.nscd.compiled import compiled
 
 @compiled
 def follow_actuator(devices, dt, free_force, impedance, actuator, x, v):
-    """Velocity of the head by the balance of `head`.
+    """Velocity v+ of the head [m/s] and force r of the slider [N] by the balance of `head`.
 
-    At rest on a rigid clamp the slider's force is undetermined and taken as zero.
-
-    Parameters
-    ----------
-    devices : tuple of float
-        `HeadDevices.of_head`.
-    dt : float
-        Step [s].
-    free_force : float
-        F0, of the specimen on a head that stands still [N].
-    impedance : float
-        Z of the specimen [N s/m].
-    actuator : float
-        Where it stands at the end of the step [m].
-    x, v : float
-        Where the head stood [m], and its velocity [m/s], at the start.
-
-    Returns
-    -------
-    float
-        v+ of the head [m/s].
-    float
-        r, force of the slider [N].
+    At rest on a rigid clamp the slider's force is undetermined and taken as zero. `free_force` F0 [N] is that of the
+    specimen on a head that stands still, `impedance` is Z [N s/m]; the `actuator` [m] stands there at the end of the
+    step `dt` [s], the head at `x` [m] with `v` [m/s] at its start.
     """
     clamp, spring, slider, mass = devices
     push = clamp * (free_force - mass * v / dt + spring * x) + x - actuator
@@ -45,27 +25,9 @@ def follow_actuator(devices, dt, free_force, impedance, actuator, x, v):
 
 @compiled
 def actuator_force(devices, dt, force, friction, x, v, velocity):
-    """Force of the actuator.
+    """Force of the actuator [N], from the `force` that the head takes and the `friction` of the slider [N].
 
-    Parameters
-    ----------
-    devices : tuple of float
-        `HeadDevices.of_head`.
-    dt : float
-        Step [s].
-    force : float
-        That the head takes [N].
-    friction : float
-        Of the slider [N].
-    x, v : float
-        Where the head stood [m], and its velocity [m/s], at the start.
-    velocity : float
-        v+ of the head [m/s].
-
-    Returns
-    -------
-    float
-        [N].
+    `x` [m] and `v` [m/s] are of the head at the start of the step `dt` [s], `velocity` is v+ [m/s] at its end.
     """
     _, spring, _, mass = devices
     return force + friction + spring * (x + dt * velocity) + mass * (velocity - v) / dt

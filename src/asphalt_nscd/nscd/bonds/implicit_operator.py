@@ -13,19 +13,9 @@ LARGEST_FACTORED = 150_000  # unknowns; factors take 2 GB for 60 000 and beyond 
 
 
 def factorise(matrix: sparse.csc_matrix, system: BondedSystem) -> SuperLU | Multigrid:
-    """What solves a positive definite matrix on the free degrees of freedom of a system.
+    """What solves a positive definite matrix (f, f) on the free degrees of freedom of a system.
 
-    Parameters
-    ----------
-    matrix : csc_matrix (f, f)
-        On the free degrees of freedom.
-    system : BondedSystem
-        Whose rigid motions multigrid needs.
-
-    Returns
-    -------
-    SuperLU or Multigrid
-        Factors, or multigrid where they would not fit into memory; `.solve` takes one column or many.
+    Factors, or multigrid where they would not fit into memory; `.solve` takes one column or many.
     """
     if matrix.shape[0] > LARGEST_FACTORED and system.position is not None:
         return Multigrid(matrix, system.rigid_motions()[system.free])
@@ -33,18 +23,7 @@ def factorise(matrix: sparse.csc_matrix, system: BondedSystem) -> SuperLU | Mult
 
 
 def factors(matrix: sparse.csc_matrix) -> SuperLU:
-    """Factors of a symmetric matrix that needs no pivots, with little fill.
-
-    Parameters
-    ----------
-    matrix : csc_matrix (f, f)
-        Positive definite.
-
-    Returns
-    -------
-    SuperLU
-        With `.solve`.
-    """
+    """Factors, with little fill, of a positive definite matrix (f, f), which needs no pivots."""
     # positive definite: pivots on the diagonal are safe, and keep the pattern symmetric
     return splu(matrix, permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
 
@@ -52,21 +31,15 @@ def factors(matrix: sparse.csc_matrix) -> SuperLU:
 class ShiftedOperator:
     """M + G^T (scale w) G on the free degrees of freedom, solvable while bonds break.
 
-    Factorised once. Each bond that breaks takes away three rank-one terms, which the Woodbury identity
-    accounts for at the cost of three more solves; after many, it is factorised again.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        M, G and w.
-    scale : float or ndarray (3 b,)
-        dt/S [s/m kg], one for all bonds or for each of their components.
+    Factorised once. Each bond that breaks takes away three rank-one terms, which the Woodbury identity accounts for at
+    the cost of three more solves; after many, it is factorised again. `scale` is dt/S [kg/m], one for all bonds or for
+    each of their components (3 b,).
     """
 
     most_updates = 60  # breakages after which a new factorisation is cheaper
 
     def __init__(self, system: BondedSystem, scale: float | np.ndarray) -> None:
-        """scale: dt/S [s/m kg], one for all bonds or for each of their components (3 b,)."""
+        """scale: dt/S [kg/m], one for all bonds or for each of their components (3 b,)."""
         self._system, self._scale = system, np.broadcast_to(scale, system.weight.shape)
         self._broken: list[int] = []
         self._taken: np.ndarray
@@ -75,14 +48,9 @@ class ShiftedOperator:
         self._factorise()
 
     def remove(self, broken: list[int]) -> None:
-        """Make these the bonds that are absent.
+        """Make these the bonds that are absent; the list `broken` may only grow.
 
         One by one: what results depends on the list alone, to the bit, not on how it came to be.
-
-        Parameters
-        ----------
-        broken : list of int
-            Bonds; the list may only grow.
         """
         # at each 61st of the list, not when this object happens to need it: a restarted run has equal bits
         last = len(broken) // (self.most_updates + 1) * (self.most_updates + 1)
@@ -103,18 +71,7 @@ class ShiftedOperator:
         self._capacitance = np.linalg.inv(np.diag(1.0 / self._strength) - self._taken.T @ self._response)
 
     def solve(self, force: np.ndarray) -> np.ndarray:
-        """Solve for forces.
-
-        Parameters
-        ----------
-        force : ndarray (f,) or (f, columns)
-            On the free degrees of freedom.
-
-        Returns
-        -------
-        ndarray
-            Of the same shape.
-        """
+        """Solution for forces (f,) or (f, columns) on the free degrees of freedom, of the same shape."""
         solution = self._solve_once(force)
         if self._strength.size:  # the update cancels digits where bodies become nearly loose
             taken = (self._taken * self._strength) @ (self._taken.T @ solution)

@@ -26,18 +26,8 @@ import numpy as np
 class BondLaw:
     """One law for all bonds: a chain, its geometry divided out.
 
-    An infinite spring or dashpot is one that the chain does not have.
-
-    Parameters
-    ----------
-    spring : float
-        Em [Pa].
-    dashpot : float
-        eta_m [Pa s].
-    kelvin_springs : ndarray (e,)
-        Ek of each Kelvin element [Pa].
-    kelvin_dashpots : ndarray (e,)
-        eta_k of each Kelvin element [Pa s].
+    An infinite spring or dashpot is one that the chain does not have. `spring` Em in Pa, `dashpot` eta_m in Pa s; of
+    each Kelvin element (e,), `kelvin_springs` Ek in Pa and `kelvin_dashpots` eta_k in Pa s.
     """
 
     spring: float
@@ -46,18 +36,7 @@ class BondLaw:
     kelvin_dashpots: np.ndarray
 
     def step(self, dt: float) -> LawStep:
-        """Coefficients of the affine law U+ = b - S sigma+ of a step.
-
-        Parameters
-        ----------
-        dt : float
-            Length of the step [s].
-
-        Returns
-        -------
-        LawStep
-            Those of components as arrays (3 b,) where bonds differ.
-        """
+        """Coefficients of the affine law U+ = b - S sigma+ of a step of length `dt` [s]."""
         springs, dashpots = np.asarray(self.kelvin_springs, float), np.asarray(self.kelvin_dashpots, float)
         damped = dashpots + dt * springs
         # of spring and dashpot the reciprocals alone: infinite ones, which the chain does not have, drop out
@@ -71,21 +50,9 @@ class BondLaw:
         )
 
     def discrete_modulus(self, omega: float, dt: float) -> complex:
-        """Complex modulus of the implicit Euler scheme itself, for steady oscillation.
+        """Complex modulus [Pa] of the implicit Euler scheme itself, for steady oscillation at `omega` [rad/s].
 
-        The scheme replaces i omega by (1 - exp(-i omega dt))/dt; dt = 0 gives the exact law.
-
-        Parameters
-        ----------
-        omega : float
-            Angular frequency [rad/s].
-        dt : float
-            Step [s].
-
-        Returns
-        -------
-        complex
-            [Pa].
+        The scheme replaces i omega by (1 - exp(-i omega dt))/dt, `dt` in s; dt = 0 gives the exact law.
         """
         rate = (1.0 - np.exp(-1j * omega * dt)) / dt if dt > 0.0 else 1j * omega
         kelvin = (1.0 / (self.kelvin_springs + rate * self.kelvin_dashpots)).sum()
@@ -94,25 +61,10 @@ class BondLaw:
 
 @dataclass(frozen=True)
 class BondLaws:
-    """A law for each component of each bond, from a table of those that differ.
+    """A law for each component of each bond: its place `kind` (3 b,) in a `table` of those that differ.
 
-    A film, for example, is squeezed by another law than it is sheared by. Parameters are those of `BondLaw`
-    for each component; a law with fewer Kelvin elements than another has zeros for the rest.
-
-    Parameters
-    ----------
-    table : tuple of BondLaw
-        Laws that differ.
-    kind : ndarray of int (3 b,)
-        Place in the table of each component.
-
-    Examples
-    --------
-    Stepped, and the same network in steady oscillation::
-
-        laws = BondLaws.of_bonds((film, stone), normal=places, tangential=other_places)
-        stepper = CondensedStepper(system, laws, dt, CondensedState.at_rest(system, laws))
-        driving_force(system, laws.discrete_modulus(omega, 0.0), omega)
+    A film, for example, is squeezed by another law than it is sheared by. Coefficients are those of `BondLaw` for each
+    component; a law with fewer Kelvin elements than another has zeros for the rest.
     """
 
     table: tuple[BondLaw, ...]
@@ -122,22 +74,7 @@ class BondLaws:
     def of_bonds(
         cls, table: Sequence[BondLaw], normal: np.ndarray, tangential: np.ndarray | None = None
     ) -> BondLaws:
-        """Bonds with a normal and a tangential law.
-
-        Parameters
-        ----------
-        table : sequence of BondLaw
-            Laws that differ.
-        normal : ndarray of int (b,)
-            Place in the table of each bond's normal law.
-        tangential : ndarray of int (b,), optional
-            Place of its tangential law; the normal one if None.
-
-        Returns
-        -------
-        BondLaws
-            A law for each component.
-        """
+        """Laws from places (b,) in `table`; the tangential law is the normal one if `tangential` is None."""
         tangential = normal if tangential is None else tangential
         return cls(tuple(table), np.column_stack([normal, tangential, tangential]).ravel())
 
@@ -162,18 +99,7 @@ class BondLaws:
         return self._of_elements([law.kelvin_dashpots for law in self.table])
 
     def step(self, dt: float) -> LawStep:
-        """Coefficients of the affine law U+ = b - S sigma+ of a step.
-
-        Parameters
-        ----------
-        dt : float
-            Length of the step [s].
-
-        Returns
-        -------
-        LawStep
-            Those of components as arrays (3 b,) where bonds differ.
-        """
+        """Coefficients of U+ = b - S sigma+ of a step `dt` [s], as arrays (3 b,) where bonds differ."""
         steps = [law.step(dt) for law in self.table]
         return LawStep(
             dt=dt,
@@ -185,20 +111,7 @@ class BondLaws:
         )
 
     def discrete_modulus(self, omega: float, dt: float) -> np.ndarray:
-        """Complex modulus of each component, as of a `BondLaw`.
-
-        Parameters
-        ----------
-        omega : float
-            Angular frequency [rad/s].
-        dt : float
-            Step [s].
-
-        Returns
-        -------
-        ndarray
-            (3 b,) [Pa].
-        """
+        """Complex modulus (3 b,) [Pa] of each component at `omega` [rad/s], as of a `BondLaw`."""
         return np.array([law.discrete_modulus(omega, dt) for law in self.table])[self.kind]
 
     def _of_elements(self, values: Sequence[np.ndarray]) -> np.ndarray:
@@ -223,58 +136,27 @@ class LawStep:
     kelvin_gain: np.ndarray  # factors of sigma+ in dk+, with minus
 
     def explicit_part(self, sigma: np.ndarray, kelvin: np.ndarray) -> np.ndarray:
-        """What the law remembers at the start of a step: b of U+ = b - S sigma+.
+        """What the law remembers at the start of a step: b [m/s] of U+ = b - S sigma+, shape (...,).
 
-        Parameters
-        ----------
-        sigma : ndarray (...,)
-            Stress at the start [Pa].
-        kelvin : ndarray (k, ...)
-            Displacements of the Kelvin elements at the start [m].
-
-        Returns
-        -------
-        ndarray (...,)
-            b [m/s].
+        `sigma` (...,) in Pa and the displacements `kelvin` (k, ...) of the Kelvin elements in m, both at the start.
         """
         return np.asarray(
             self.spring_memory * sigma - (_beside(self.kelvin_recall, kelvin) * kelvin).sum(axis=0)
         )
 
     def update(self, explicit: np.ndarray, velocity: np.ndarray, kelvin: np.ndarray) -> tuple:
-        """State at the end of a step, from what the bond opened at.
+        """State at the end of a step, sigma+ = (b - U+) / S (...,) [Pa] and dk+ (k, ...) [m].
 
-        Parameters
-        ----------
-        explicit : ndarray (...,)
-            b of `explicit_part` [m/s].
-        velocity : ndarray (...,)
-            Opening velocity U+ [m/s].
-        kelvin : ndarray (k, ...)
-            Displacements of the Kelvin elements at the start [m].
-
-        Returns
-        -------
-        tuple of ndarray
-            sigma+ = (b - U+) / S (...,) [Pa], and dk+ (k, ...) [m].
+        `explicit` (...,) is b of `explicit_part` and `velocity` (...,) the opening velocity U+, both in m/s; `kelvin`
+        (k, ...) are the displacements of the Kelvin elements at the start [m].
         """
         sigma = (explicit - velocity) / self.compliance
         return sigma, self.stretched(kelvin, sigma)
 
     def stretched(self, kelvin: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-        """Kelvin displacements at the end of a step.
+        """Kelvin displacements dk+ = (eta_k dk- - dt sigma+) / (eta_k + dt Ek) (k, ...) [m] at a step's end.
 
-        Parameters
-        ----------
-        kelvin : ndarray (k, ...)
-            At the start [m].
-        sigma : ndarray (...,)
-            Stress at the end [Pa]; a positive one shortens, as sigma = -Em dm has it.
-
-        Returns
-        -------
-        ndarray (k, ...)
-            dk+ = (eta_k dk- - dt sigma+) / (eta_k + dt Ek) [m].
+        `sigma` (...,) is the stress at the end [Pa]; a positive one shortens, as sigma = -Em dm has it.
         """
         return np.asarray(
             _beside(self.kelvin_decay, kelvin) * kelvin - _beside(self.kelvin_gain, kelvin) * sigma

@@ -20,14 +20,10 @@ SMOOTHER = ("chebyshev", {"degree": 4})  # half the time of a solution with Gaus
 
 
 class Multigrid:
-    """A symmetric positive definite matrix that is solved as factors are, by `.solve`.
+    """A symmetric positive definite matrix (f, f) that is solved as factors are, by `.solve`.
 
-    Parameters
-    ----------
-    matrix : csc_matrix (f, f)
-        Of bodies one after another; the last may lack some of its six degrees of freedom.
-    modes : ndarray (f, 6)
-        The rigid-body motions of its degrees of freedom.
+    Its bodies come one after another; the last may lack some of its six degrees of freedom. `modes` (f, 6) are its
+    rigid-body motions.
     """
 
     def __init__(self, matrix: sparse.csc_matrix, modes: np.ndarray) -> None:
@@ -50,38 +46,11 @@ class Multigrid:
         self._near = self.levels.aspreconditioner()
 
     def cycle(self, force: np.ndarray) -> np.ndarray:
-        """One cycle: near the solution, and what preconditions it.
-
-        Parameters
-        ----------
-        force : ndarray (f,)
-            Right-hand side.
-
-        Returns
-        -------
-        ndarray
-            (f,) Approximate solution.
-        """
+        """One cycle: an approximate solution (f,) of `force` (f,), which serves to precondition."""
         return self._unscaled(self._near @ self._scaled(force))
 
     def solve(self, force: np.ndarray) -> np.ndarray:
-        """Solve by conjugate gradients.
-
-        Parameters
-        ----------
-        force : ndarray (f,) or (f, columns)
-            One or several right-hand sides.
-
-        Returns
-        -------
-        ndarray
-            Solutions, of the same shape.
-
-        Raises
-        ------
-        ArithmeticError
-            Where MOST_ITERATIONS do not suffice.
-        """
+        """Solution for `force` (f,) or (f, columns); ArithmeticError after MOST_ITERATIONS of conjugate gradients."""
         if force.ndim == 2:
             return np.column_stack([self.solve(column) for column in force.T])
         scaled = self._scaled(force)

@@ -11,19 +11,10 @@ from asphalt_nscd.nscd.bonds.system import BondedSystem
 
 
 class Statics:
-    """The motion of a system whose driven degree of freedom moves by one. Each solution starts from the last
-    one.
+    """Static motion of a system per unit of its driven degree of freedom, each solution begun from the last.
 
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    tolerance : float
-        Of the residual, relative.
-    enough : int
-        The matrix is factorised anew after a solution that took more iterations.
-    most : int
-        And within one that took so many.
+    `tolerance` is relative, of the residual. The matrix is factorised anew after a solution that took more than
+    `enough` iterations, and within one that took `most`.
     """
 
     def __init__(self, system: BondedSystem, tolerance: float, enough: int, most: int) -> None:
@@ -37,22 +28,9 @@ class Statics:
         self._factor: SuperLU | Multigrid | None = None
 
     def motion(self, weight: np.ndarray) -> np.ndarray:
-        """Static displacements.
+        """Static displacements (d,) per unit of the driven one, for bonds of `weight` (3 b,) [m].
 
-        Parameters
-        ----------
-        weight : ndarray (3 b,)
-            Of the bonds [m].
-
-        Returns
-        -------
-        ndarray
-            (d,) Per unit of the driven one.
-
-        Raises
-        ------
-        ArithmeticError
-            Where no solution is found.
+        ArithmeticError where no solution is found.
         """
         system, free = self.system, self.system.free
         # on the factors of other weights, if there are any; should they fail, once more on new ones

@@ -13,20 +13,7 @@ from asphalt_nscd.nscd.compiled import compiled
 
 
 def utilisations(reaction: np.ndarray, strength: np.ndarray) -> np.ndarray:
-    """How far reactions use up the strength of bonds.
-
-    Parameters
-    ----------
-    reaction : ndarray (b, 3) or (3 b,)
-        [N], tension negative.
-    strength : ndarray (b,)
-        [N].
-
-    Returns
-    -------
-    ndarray
-        (b,) Above one a bond breaks.
-    """
+    """How far reactions [N], tension negative, use up the strength (b,) [N] of bonds: (b,), above one they break."""
     reaction = reaction.reshape(-1, 3)
     shear = np.hypot(reaction[:, 1], reaction[:, 2])
     # a bond under pressure breaks by shear alone
@@ -35,33 +22,11 @@ def utilisations(reaction: np.ndarray, strength: np.ndarray) -> np.ndarray:
 
 @compiled
 def utilisation(normal, tangent, other):
-    """How far one bond is used up.
-
-    Parameters
-    ----------
-    normal, tangent, other : float
-        Its reaction over its strength, tension negative.
-
-    Returns
-    -------
-    float
-        Above one it breaks.
-    """
+    """How far a bond is used up by its reaction over its strength (tension negative); above one it breaks."""
     return max(-normal, np.sqrt(tangent * tangent + other * other))
 
 
 @compiled
 def bound(normal, tangent, other):
-    """What `utilisation` does not exceed, whatever the signs.
-
-    Parameters
-    ----------
-    normal, tangent, other : float
-        A reaction over its strength.
-
-    Returns
-    -------
-    float
-        Norm of the three.
-    """
+    """Norm of a reaction over its strength, which `utilisation` does not exceed, whatever the signs."""
     return np.sqrt(normal**2 + tangent**2 + other**2)

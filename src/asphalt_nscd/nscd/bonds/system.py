@@ -23,30 +23,10 @@ from asphalt_nscd.nscd.compiled import compiled
 class BondedSystem:
     """Bonded bodies with one driven degree of freedom; only free ones and the driven one are kept.
 
-    Degrees of freedom (d,): three translations [m] and three rotations [rad] of each moving body.
-
-    Parameters
-    ----------
-    operator : csr_matrix (3 b, d)
-        G.
-    weight : ndarray (3 b,)
-        w [m].
-    mass : ndarray (d,)
-        [kg] or [kg m2].
-    load : ndarray (d,)
-        Constant, [N] or [N m].
-    driven : int
-        Place of the driven degree of freedom.
-    gap : ndarray (b,)
-        [m].
-    strength : ndarray (b,)
-        Yield force in tension and in shear [N].
-    friction : float
-        Where the gap of a broken bond closes.
-    position : ndarray (n, 3), optional
-        Of the bodies [m], which systems of many need.
-    place : ndarray of int (d,), optional
-        Of each degree of freedom among the six of all bodies; None: the first.
+    Degrees of freedom (d,): three translations [m] and three rotations [rad] of each moving body. `operator` is G (3 b,
+    d), `weight` w (3 b,) in m, `mass` (d,) in kg or kg m2, constant `load` (d,) in N or N m, `gap` (b,) in m,
+    `strength` (b,) the yield force in tension and in shear [N]; `friction` acts where the gap of a broken bond closes.
+    `position` (n, 3) in m is for many bodies; `place` (d,) is the place among the six of all bodies (None: the first).
     """
 
     operator: sparse.csr_matrix
@@ -82,13 +62,7 @@ class BondedSystem:
         return self.operator.power(2).T @ self.weight
 
     def rigid_motions(self) -> np.ndarray:
-        """The six motions of all bodies as one.
-
-        Returns
-        -------
-        ndarray
-            (d, 6) Three translations, three rotations.
-        """
+        """The six motions (d, 6) of all bodies as one: three translations, three rotations."""
         assert self.position is not None, "a system without places has no rotation as one"
         motion = np.zeros((len(self.position), 6, 6))
         motion[:, :3, :3] = motion[:, 3:, 3:] = np.eye(3)
@@ -96,52 +70,17 @@ class BondedSystem:
         return motion.reshape(-1, 6)[np.arange(self.mass.size) if self.place is None else self.place]
 
     def stiffness(self, weight: np.ndarray | None = None) -> sparse.csc_matrix:
-        """K = G^T w G, the stiffness per unit modulus.
-
-        Parameters
-        ----------
-        weight : ndarray (3 b,), optional
-            w [m], with zeros for broken bonds; that of the system if None.
-
-        Returns
-        -------
-        csc_matrix (d, d)
-            [m].
-        """
+        """Stiffness per unit modulus K = G^T w G (d, d) [m]; `weight` w (3 b,) [m] has zeros for broken bonds."""
         weight = self.weight if weight is None else weight
         return (self.operator.T @ (sparse.diags_array(weight) @ self.operator)).tocsc()
 
     def utilisation(self, reaction: np.ndarray) -> np.ndarray:
-        """Yield measure: tension or tangential force over strength.
-
-        Parameters
-        ----------
-        reaction : ndarray (3 b,)
-            [N].
-
-        Returns
-        -------
-        ndarray
-            (b,) Above one a bond breaks.
-        """
+        """Yield measure (b,) of a `reaction` (3 b,) [N]; above one a bond breaks."""
         return utilisations(reaction, self.strength)
 
 
 def clusters(first: np.ndarray, second: np.ndarray, n: int) -> np.ndarray:
-    """Which bodies bonds hold together.
-
-    Parameters
-    ----------
-    first, second : ndarray of int (b,)
-        Bodies that each bond joins.
-    n : int
-        Number of bodies.
-
-    Returns
-    -------
-    ndarray of int (n,)
-        Number of the cluster that each body belongs to.
-    """
+    """Number (n,) of each body's cluster, held together by bonds that join `first` to `second` (b,)."""
     graph = sparse.coo_array((np.ones(first.size), (first, second)), shape=(n, n))
     return np.asarray(connected_components(graph, directed=False)[1])
 
@@ -149,23 +88,10 @@ def clusters(first: np.ndarray, second: np.ndarray, n: int) -> np.ndarray:
 def opening_operator(
     first: np.ndarray, second: np.ndarray, frame: np.ndarray, point: np.ndarray, position: np.ndarray
 ) -> sparse.csr_matrix:
-    """G, which makes opening velocities of the velocities of bodies. Bodies numbered n or above are fixed.
+    """G (3 b, 6 n), which makes opening velocities of those of bodies; bodies numbered n or above are fixed.
 
-    Parameters
-    ----------
-    first, second : ndarray of int (b,)
-        Bodies that each bond joins.
-    frame : ndarray (b, 3, 3)
-        Rows: the normal from first to second, two tangents.
-    point : ndarray (b, 3)
-        Where each bond acts [m].
-    position : ndarray (n, 3)
-        Of the moving bodies [m].
-
-    Returns
-    -------
-    csr_matrix (3 b, 6 n)
-        Three rows for each bond.
+    Rows of `frame` (b, 3, 3) are the normal from `first` to `second` (b,) and two tangents; `point` (b, 3) and
+    `position` (n, 3) in m.
     """
     n, bonds = position.shape[0], first.size
     first, second = first.astype(np.int64), second.astype(np.int64)  # else a second kernel would be compiled

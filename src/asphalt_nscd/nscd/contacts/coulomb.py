@@ -13,20 +13,7 @@ from asphalt_nscd.nscd.lanes import broadcast, select_greater, sqrt
 
 @compiled_for_teams
 def cut(x, y, z, limit):
-    """Cut tangential reactions of eight contacts (lanes.py) to Coulomb's limit: those above it slip.
-
-    Parameters
-    ----------
-    x, y, z : lanes
-        Tangential reactions.
-    limit : lanes
-        mu times the normal reactions.
-
-    Returns
-    -------
-    tuple of lanes
-        The same reactions, no longer than the limit.
-    """
+    """Cut tangential reactions of eight contacts to Coulomb's `limit`, mu times the normal reactions."""
     square = x * x + y * y + z * z
     # all lanes compute both values: that of a contact without tangential force, 0/0, is never taken
     share = select_greater(square, limit * limit, limit / sqrt(square), broadcast(1.0))
@@ -35,25 +22,11 @@ def cut(x, y, z, limit):
 
 @compiled
 def one_contact(w, q0, q1, q2, mu):
-    """Reaction of one contact.
+    """Reaction [N s] of one contact, r_n and both parts of r_T; `w` (3, 3) is its full block of W [1/kg].
 
-    Slip means r_T = -u_T / s with s > 0. With r_n eliminated by u_n = 0 there remains (A + s) r_T = -g, and s
-    follows from |r_T| = mu r_n: Newton's method on the difference of the reciprocals, kept within bounds. s =
-    0 is sticking.
-
-    Parameters
-    ----------
-    w : ndarray (3, 3)
-        Its full block of W [1/kg].
-    q0, q1, q2 : float
-        Free velocity [m/s], normal first.
-    mu : float
-        Friction.
-
-    Returns
-    -------
-    tuple of float
-        r_n and both parts of r_T [N s].
+    Slip means r_T = -u_T / s with s > 0. With r_n eliminated by u_n = 0 there remains (A + s) r_T = -g, and s follows
+    from |r_T| = mu r_n: Newton's method on the difference of the reciprocals, kept within bounds. s = 0 is sticking.
+    `q0, q1, q2` is the free velocity [m/s], normal first.
     """
     # where nothing can move no reaction helps, and the natural map tells that there is no solution
     if q0 >= 0.0 or w[0, 0] <= 0.0:
@@ -107,20 +80,7 @@ def one_contact(w, q0, q1, q2, mu):
 
 @compiled
 def project_on_cone(n, t, s, friction):
-    """Nearest point of the cone |(t, s)| <= friction n.
-
-    Parameters
-    ----------
-    n, t, s : float
-        A point.
-    friction : float
-        Of the cone.
-
-    Returns
-    -------
-    tuple of float
-        Its projection.
-    """
+    """Nearest point of the cone |(t, s)| <= friction n to (n, t, s)."""
     tangential = np.sqrt(t * t + s * s)
     if tangential <= friction * n:
         return n, t, s
@@ -133,22 +93,7 @@ def project_on_cone(n, t, s, friction):
 
 
 def projections(z: np.ndarray, mu: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Nearest points of the cones |(t, s)| <= mu n.
-
-    Parameters
-    ----------
-    z : ndarray (c, 3)
-        Points.
-    mu : ndarray (c,)
-        Friction.
-
-    Returns
-    -------
-    ndarray (c, 3)
-        Projections.
-    ndarray (c, 3, 3)
-        Their derivatives by z.
-    """
+    """Nearest points (c, 3) of the cones |(t, s)| <= mu n to `z` (c, 3), and their derivatives by z (c, 3, 3)."""
     tangential = np.hypot(z[:, 1], z[:, 2])
     inside = tangential <= mu * z[:, 0]
     outside = mu * tangential <= -z[:, 0]

@@ -29,24 +29,11 @@ PATIENCE = 60  # steps of a path that may pass without the error falling to a ha
 
 @dataclass(frozen=True)
 class ContactSolution:
-    """Reactions with their error. Only where `converged` are they a solution.
+    """Reactions with their errors; only where `converged`, both within the tolerance, are they a solution.
 
-    Parameters
-    ----------
-    reactions : ndarray (3 c,)
-        r [N s].
-    velocities : ndarray (3 c,)
-        u = W r + q [m/s].
-    error : float
-        Natural map in the given units, comparable with Siconos's.
-    scaled_error : float
-        Natural map in units of energy.
-    sweeps : int
-        Of Gauss-Seidel.
-    steps : int
-        Of the interior path and of Newton's method: one factorisation each, or more.
-    converged : bool
-        Whether both errors are within the tolerance.
+    `reactions` r (3 c,) in N s, `velocities` u = W r + q (3 c,) in m/s. `error` is the natural map in the given units,
+    comparable with Siconos's, `scaled_error` that free of units (`natural_map`). `sweeps` are of Gauss-Seidel, `steps`
+    of the interior path and of Newton's method: one factorisation each, or more.
     """
 
     reactions: np.ndarray
@@ -59,28 +46,11 @@ class ContactSolution:
 
     @property
     def iterations(self) -> int:
-        """Sweeps and steps together.
-
-        Returns
-        -------
-        int
-            Their number.
-        """
+        """Number of sweeps and steps together."""
         return self.sweeps + self.steps
 
     def require_converged(self) -> ContactSolution:
-        """Refuse reactions that are no solution.
-
-        Returns
-        -------
-        ContactSolution
-            Itself.
-
-        Raises
-        ------
-        ArithmeticError
-            Which says how far it is from one.
-        """
+        """Give the solution itself; ArithmeticError, which says how far it is from one, if not converged."""
         if not self.converged:
             worst = max(self.error, self.scaled_error)
             raise ArithmeticError(
@@ -99,36 +69,11 @@ def solve_contacts(
 ) -> ContactSolution:
     """Reactions r with u = W r + q, opening u_n >= 0, r_n >= 0, complementary, and Coulomb friction.
 
-    The error is that of the natural map (see `natural_map`), relative to the whole of what W couples; it is
-    for the caller to look at `converged`. Where W is indefinite there may be no solution, or several.
+    `W` (3 c, 3 c) [1/kg] is positive semidefinite, of any storage; free velocities `q` (3 c,) [m/s] come normal first;
+    `mu` is one for all contacts or (c,). The error is that of `natural_map`, relative to the whole of what W couples;
+    it is for the caller to look at `converged`. Where W is indefinite there may be no solution, or several.
+    `most_steps` bounds each interior path; there may be twice as many proximal points.
 
-    Parameters
-    ----------
-    W : array or sparse matrix (3 c, 3 c)
-        Delassus operator [1/kg], positive semidefinite, of any storage.
-    q : array_like (3 c,)
-        Free velocities [m/s], normal first.
-    mu : float or array_like (c,)
-        Friction, one for all contacts or for each.
-    tolerance : float
-        Of both errors.
-    most_sweeps : int
-        Of Gauss-Seidel.
-    most_steps : int
-        Of each interior path; there may be twice as many proximal points.
-
-    Returns
-    -------
-    ContactSolution
-        Reactions, velocities and their error.
-
-    Raises
-    ------
-    ValueError
-        For input that is no such problem, or a tolerance near rounding.
-
-    Examples
-    --------
     >>> W, q = np.eye(3) / 2.0, [-9.81e-3, 2e-3, 0.0]
     >>> solve_contacts(W, q, mu=0.5).reactions.round(12).tolist()  # stops it
     [0.01962, -0.004, 0.0]

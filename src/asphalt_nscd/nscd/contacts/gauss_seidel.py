@@ -22,25 +22,10 @@ _FAINT = 1e-12  # of all that moves, in squares: a part that moves less is not j
 
 @compiled
 def accelerated_sweeps(start, other, block, q, friction, length, part, tolerance, most_sweeps, first):
-    """Gauss-Seidel sweeps, extrapolated, until both errors are below tolerance or progress ends.
+    """Extrapolated Gauss-Seidel sweeps until both errors are below `tolerance` or progress ends.
 
-    Parameters
-    ----------
-    start, other, block, q, friction, length, part : ndarray
-        As of a `ContactProblem`.
-    tolerance : float
-        Of both errors.
-    most_sweeps : int
-        How many at most.
-    first : ndarray (3 c,)
-        Reactions to start from.
-
-    Returns
-    -------
-    ndarray (3 c,)
-        Reactions of the least error.
-    int
-        Sweeps.
+    `start` to `part` are as of a `ContactProblem`; `first` (3 c,) are the reactions to start from. Returns the
+    reactions (3 c,) of the least error and the number of sweeps.
     """
     rows = q.shape[0]
     r, swept, best = first.copy(), np.zeros(rows), first.copy()
@@ -98,23 +83,10 @@ def accelerated_sweeps(start, other, block, q, friction, length, part, tolerance
 
 @compiled
 def extrapolated(result, change, of_results, of_changes, normal, kept):
-    """The result for which the change of a sweep would be least, to first order (Walker & Ni 2011).
+    """The result (rows,) for which the change of a sweep would be least, to first order (Walker & Ni 2011).
 
-    Parameters
-    ----------
-    result, change : ndarray (rows,)
-        Of the last sweep.
-    of_results, of_changes : ndarray (>= kept, rows)
-        Differences between successive sweeps.
-    normal : ndarray (>= kept, >= kept)
-        Products of of_changes with each other.
-    kept : int
-        How many differences count.
-
-    Returns
-    -------
-    ndarray (rows,)
-        Extrapolated result.
+    `result` and `change` (rows,) are of the last sweep; `of_results` and `of_changes` (>= kept, rows) are differences
+    between successive sweeps, of which `kept` count; `normal` (>= kept, >= kept) are products of the latter.
     """
     combined = result.copy()
     # changes of successive sweeps become parallel as the method stalls; without damping the shares grow
@@ -143,22 +115,10 @@ def _dot(a, b):
 
 @compiled
 def sweep_once(start, other, block, q, friction, r):
-    """Solve each contact in turn with all others held; r (3 c,) changes in place. W_aa must stand in W.
+    """Solve each contact in turn with all others held; r (3 c,) [N s] changes in place.
 
-    Parameters
-    ----------
-    start : ndarray of int (c + 1,)
-        Where the blocks of each row of W begin in `other` and `block`.
-    other : ndarray of int (k,)
-        Contact that each block couples the row's own to.
-    block : ndarray (k, 3, 3)
-        Blocks of the Delassus operator W [1/kg].
-    q : ndarray (3 c,)
-        Free velocities [m/s]; normal first in each contact.
-    friction : ndarray (c,)
-        Coefficient of each contact.
-    r : ndarray (3 c,)
-        Reactions [N s], in the order of q.
+    Block row a of W has blocks start[a]:start[a + 1], each `block` (k, 3, 3) [1/kg] in block column `other` (k,); W_aa
+    must be among them. `q` (3 c,) is the free velocity [m/s], normal first; `friction` (c,).
     """
     each, free = r.reshape(-1, 3), q.reshape(-1, 3)
     for a in range(friction.shape[0]):
@@ -178,27 +138,12 @@ def sweep_once(start, other, block, q, friction, r):
 
 @compiled
 def natural_map(start, other, block, q, friction, length, part, r):
-    """Two errors of reactions: as Siconos states it, and free of units.
+    """Two errors of reactions `r` (3 c,) [N s], as Siconos states it and free of units; infinite where r is.
 
-    |r - P_K(r - (u + mu |u_T| n))| / max(|q|, |r|, |u|) adds impulses to velocities, so that it depends on
-    the units, and becomes small where reactions grow without end. The second takes the variables r /
-    sqrt(rho) and u sqrt(rho), both square roots of energies, with the step lengths rho_a = `length`, is
-    relative to |q| alone, and at least the rounding of r. It is that of the worst part: contacts that nothing
-    couples to the others answer for themselves.
-
-    Parameters
-    ----------
-    start, other, block, q, friction, length, part : ndarray
-        As of a `ContactProblem`.
-    r : ndarray (3 c,)
-        Reactions [N s].
-
-    Returns
-    -------
-    float
-        Error in the given units.
-    float
-        Error free of units. Both are infinite where r is.
+    |r - P_K(r - (u + mu |u_T| n))| / max(|q|, |r|, |u|) adds impulses to velocities, so that it depends on the units,
+    and becomes small where reactions grow without end. The second takes r / sqrt(rho) and u sqrt(rho), both square
+    roots of energies, with step lengths rho_a = `length`, is relative to |q| alone, and at least the rounding of r. It
+    is that of the worst part: contacts that nothing couples to the others answer for themselves.
     """
     plain = frees = forces = speeds = 0.0
     parts = part.max() + 1

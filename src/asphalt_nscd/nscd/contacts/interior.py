@@ -22,21 +22,10 @@ from asphalt_nscd.nscd.contacts.problem import ContactProblem
 
 
 def interior_path(problem: ContactProblem, start: float, balance: float) -> Iterator[np.ndarray]:
-    """Reactions step after step along an interior path; it ends only where rounding leaves no direction.
+    """Yield reactions (3 c,) [N s] along an interior path, which ends only where rounding leaves no direction.
 
-    Parameters
-    ----------
-    problem : ContactProblem
-        Frictional contacts.
-    start : float
-        Size of the first x and y, that of q being one (large: far inside the cones).
-    balance : float
-        Share of |residual| / gap below which m does not fall, for the two to vanish together.
-
-    Yields
-    ------
-    ndarray (3 c,)
-        Reactions [N s].
+    `start` is the size of the first x and y, that of q being one (large: far inside the cones). m does not fall below
+    the share `balance` of |residual| / gap, for the two to vanish together.
     """
     mu, contacts = problem.friction, problem.friction.size
     diagonal = problem.matrix.diagonal().reshape(-1, 3)

@@ -15,25 +15,9 @@ from asphalt_nscd.nscd.contacts.problem import ContactProblem
 def refine(
     problem: ContactProblem, r: np.ndarray, tolerance: float, most_steps: int = 12
 ) -> tuple[np.ndarray, int]:
-    """Newton steps, each of which reduces |F|, until both errors are below tolerance or progress is slow.
+    """Reactions (3 c,) [N s] after Newton steps, each of which reduces |F|, and the number of steps.
 
-    Parameters
-    ----------
-    problem : ContactProblem
-        Frictional contacts.
-    r : ndarray (3 c,)
-        Reactions to start from [N s].
-    tolerance : float
-        Of both errors.
-    most_steps : int
-        How many at most.
-
-    Returns
-    -------
-    ndarray (3 c,)
-        Reactions [N s].
-    int
-        Steps made.
+    They end when both errors are below `tolerance` or progress is slow.
     """
     weight = np.repeat(1.0 / np.sqrt(problem.length), 3)
     scale = max(
@@ -66,24 +50,7 @@ def refine(
 
 
 def linearised(problem: ContactProblem, r: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """F and its derivatives: dF = D dr + B du, du = W dr.
-
-    Parameters
-    ----------
-    problem : ContactProblem
-        Frictional contacts.
-    r : ndarray (3 c,)
-        Reactions [N s].
-
-    Returns
-    -------
-    ndarray (3 c,)
-        F.
-    ndarray (c, 3, 3)
-        D, by r.
-    ndarray (c, 3, 3)
-        B, by u.
-    """
+    """F (3 c,) at reactions `r` (3 c,) [N s], and D, B (c, 3, 3) of dF = D dr + B du, where du = W dr."""
     mu, rho = problem.friction, problem.length
     u = problem.velocity(r).reshape(-1, 3)
     slip = np.hypot(u[:, 1], u[:, 2])

@@ -27,28 +27,9 @@ LARGEST = 1e100  # of W, and its reciprocal the least: squares of more overflow
 class ContactProblem:
     """Checked input in the forms that the methods need.
 
-    Parameters
-    ----------
-    matrix : csr_array (3 c, 3 c)
-        W [1/kg].
-    start : ndarray of int (c + 1,)
-        First block of each block row of W.
-    other : ndarray of int (blocks,)
-        Block column.
-    row : ndarray of int (blocks,)
-        Block row.
-    own : ndarray of int (c,)
-        Where in these lists W_aa stands.
-    block : ndarray (blocks, 3, 3)
-        The blocks [1/kg].
-    free_velocity : ndarray (3 c,)
-        q [m/s].
-    friction : ndarray (c,)
-        mu.
-    length : ndarray (c,)
-        rho = 3 / tr W_aa [kg], the step length that suits each contact.
-    part : ndarray of int (c,)
-        Number of the part that a contact is in: W couples no two parts.
+    `matrix` W (3 c, 3 c) and its blocks `block` (blocks, 3, 3) in 1/kg, at block rows `row` and block columns `other`;
+    `start` (c + 1,) is the first block of each row, `own` (c,) the place of W_aa. `free_velocity` q (3 c,) in m/s;
+    `length` (c,) is the step length rho = 3 / tr W_aa [kg]; `part` (c,) numbers parts that W does not couple.
     """
 
     matrix: sparse.csr_array
@@ -64,26 +45,9 @@ class ContactProblem:
 
     @classmethod
     def of(cls, W: AnyMatrix, q: ArrayLike, mu: ArrayLike) -> ContactProblem:
-        """Check a problem and bring it into the forms that the methods need.
+        """Check a problem and bring it into the forms that the methods need; ValueError if it is none.
 
-        Parameters
-        ----------
-        W : array or sparse matrix (3 c, 3 c)
-            Delassus operator [1/kg], of any storage.
-        q : array_like (3 c,)
-            Free velocities [m/s].
-        mu : float or array_like (c,)
-            Friction, one for all contacts or for each.
-
-        Returns
-        -------
-        ContactProblem
-            Blocks, step lengths and parts.
-
-        Raises
-        ------
-        ValueError
-            For shapes that do not fit, or values that are not finite or not real.
+        `W` (3 c, 3 c) [1/kg] is of any storage; `q` (3 c,) in m/s; `mu` is one for all contacts or (c,).
         """
         q = np.array(q, float).ravel()
         contacts = q.size // 3
@@ -125,56 +89,17 @@ class ContactProblem:
         )
 
     def velocity(self, r: np.ndarray) -> np.ndarray:
-        """u = W r + q.
-
-        Parameters
-        ----------
-        r : ndarray (3 c,)
-            Reactions [N s].
-
-        Returns
-        -------
-        ndarray
-            (3 c,) [m/s].
-        """
+        """Velocity u = W r + q (3 c,) [m/s] of reactions `r` (3 c,) [N s]."""
         return self.matrix @ r + self.free_velocity
 
     def errors(self, r: np.ndarray) -> tuple[float, float]:
-        """Errors of the natural map; see `natural_map`.
-
-        Parameters
-        ----------
-        r : ndarray (3 c,)
-            Reactions [N s].
-
-        Returns
-        -------
-        tuple of float
-            As Siconos states it, and free of units.
-        """
+        """Errors of reactions `r` (3 c,) [N s], as Siconos states it and free of units (`natural_map`)."""
         return natural_map(
             self.start, self.other, self.block, self.free_velocity, self.friction, self.length, self.part, r
         )
 
     def sweeps(self, tolerance: float, most_sweeps: int, first: np.ndarray) -> tuple[np.ndarray, int]:
-        """Reactions by accelerated sweeps.
-
-        Parameters
-        ----------
-        tolerance : float
-            Of both errors.
-        most_sweeps : int
-            How many at most.
-        first : ndarray (3 c,)
-            Reactions to start from [N s].
-
-        Returns
-        -------
-        ndarray (3 c,)
-            Reactions [N s].
-        int
-            Sweeps.
-        """
+        """Reactions (3 c,) [N s] by accelerated sweeps from `first` (3 c,), and the number of sweeps."""
         return accelerated_sweeps(
             self.start,
             self.other,
@@ -189,22 +114,10 @@ class ContactProblem:
         )
 
     def factor(self, block: np.ndarray, pressed: np.ndarray | None = None) -> SuperLU | None:
-        """Factors of the matrix with other blocks in the places of W.
+        """Factors of the matrix with `block` (blocks, 3, 3) in the places of W, or None if it is singular.
 
-        `.solve(right, "T")` solves with it: what are rows here are columns to SuperLU, which saves a
-        transposition.
-
-        Parameters
-        ----------
-        block : ndarray (blocks, 3, 3)
-            In the places of W.
-        pressed : ndarray of bool (c,), optional
-            Contacts whose rows and columns it has; all if None.
-
-        Returns
-        -------
-        SuperLU or None
-            None if it is singular.
+        It has the rows and columns of contacts `pressed` (c,), all if None. `.solve(right, "T")` solves with it: what
+        are rows here are columns to SuperLU, which saves a transposition.
         """
         matrix = sparse.bsr_array((block, self.other, self.start), shape=self.matrix.shape).tocsr()
         if pressed is not None:

@@ -26,27 +26,9 @@ HOPEFUL = 1e-2  # error from which Newton's method is tried on the problem itsel
 def proximal_points(
     problem: ContactProblem, r: np.ndarray, tolerance: float, most_points: int
 ) -> tuple[np.ndarray, int, int]:
-    """Solve the problem again and again with a little damping, which falls, until the error is within tolerance.
+    """Solve the problem repeatedly with a little damping, which falls, until both errors are within tolerance.
 
-    Parameters
-    ----------
-    problem : ContactProblem
-        Frictional contacts.
-    r : ndarray (3 c,)
-        Reactions to start from [N s].
-    tolerance : float
-        Of both errors.
-    most_points : int
-        How many at most.
-
-    Returns
-    -------
-    ndarray (3 c,)
-        Reactions of the least error [N s].
-    int
-        Sweeps.
-    int
-        Newton steps.
+    Returns the reactions (3 c,) of the least error [N s] and the numbers of sweeps and of Newton steps.
     """
     best, least = r, max(problem.errors(r))
     error, damping, sweeps, steps = least, FIRST, 0, 0
@@ -81,22 +63,7 @@ def proximal_points(
 
 
 def softened(problem: ContactProblem, damping: float, r: np.ndarray) -> ContactProblem:
-    """The problem with a little damping at each contact, and what it does to r taken off q.
-
-    Parameters
-    ----------
-    problem : ContactProblem
-        Frictional contacts.
-    damping : float
-        Over rho on the diagonal of W.
-    r : ndarray (3 c,)
-        Reactions [N s] which solve both, if they solve one.
-
-    Returns
-    -------
-    ContactProblem
-        With another W and q.
-    """
+    """The problem with `damping` / rho on the diagonal of W and what that does to `r` (3 c,) [N s] taken off q."""
     added = damping / problem.length
     block = problem.block.copy()
     block[problem.own] += added[:, None, None] * np.eye(3)

@@ -19,28 +19,10 @@ NO_CONTACT = -1  # in a lane left over
 
 @compiled_for_teams
 def number_blocks(bodies, begin, count, fixed, workspace, last):
-    """Deal contacts into blocks.
+    """Deal contacts begin to begin + count into blocks, numbered from zero, and give how many there are.
 
-    workspace.block and workspace.lane then hold where each stands. Bodies from `fixed` on do not yield, so
-    that contacts of a block may share them.
-
-    Parameters
-    ----------
-    bodies : ndarray of int (c, 2)
-        Bodies of each contact; the first one yields.
-    begin, count : int
-        Contacts begin to begin + count are dealt, and no others.
-    fixed : int
-        Number of the first body that does not yield.
-    workspace : Workspace
-        Whose block, lane, filled and following are written, at these contacts alone.
-    last : ndarray of int (r,)
-        Room of this member alone: the block in which each body stood last.
-
-    Returns
-    -------
-    int
-        How many blocks there are; they are numbered from zero.
+    workspace.block and workspace.lane then hold where each stands. In `bodies` (c, 2) the first one yields; those from
+    `fixed` on do not, so that contacts of a block may share them. `last` (r,) is this member's room.
     """
     filled, following = workspace.filled, workspace.following
     for k in range(begin, begin + count):
@@ -68,27 +50,9 @@ def number_blocks(bodies, begin, count, fixed, workspace, last):
 
 @compiled_for_teams
 def deal_lively(s, begin, count, workspace, last):
-    """Deal the contacts that were noted in a slab into lively blocks.
+    """Deal the `count` contacts noted in slab `s` from `begin` on into lively blocks, and give their number.
 
     A sweep over copies side by side is faster than one that looks for the contacts where they stand.
-
-    Parameters
-    ----------
-    s : int
-        Slab.
-    begin : int
-        First of its noted contacts.
-    count : int
-        How many were noted.
-    workspace : Workspace
-        Is changed.
-    last : ndarray of int
-        For each body the last block that holds it.
-
-    Returns
-    -------
-    int
-        Blocks.
     """
     blocks, copies = workspace.lively_blocks, workspace.lively_contacts
     found = number_blocks(workspace.bodies, begin, count, workspace.wall + 1, workspace, last)
@@ -121,35 +85,17 @@ def deal_lively(s, begin, count, workspace, last):
 
 @compiled_for_teams
 def first_lively(begin):
-    """The first lively block of the slab whose contacts begin at `begin`.
+    """Place in workspace.lively_blocks of the first one of the slab whose contacts begin at `begin`.
 
-    Chains of contacts that share bodies, and full blocks, decide how many blocks there must be; of some contacts
-    of a slab there are no more of either than of all, so that twice the number of its blocks is enough.
-
-    Parameters
-    ----------
-    begin : int
-        Contact at which the slab begins.
-
-    Returns
-    -------
-    int
-        Place in workspace.lively_blocks.
+    Chains of contacts that share bodies, and full blocks, decide how many blocks there must be; of some contacts of a
+    slab there are no more of either than of all, so that twice the number of its blocks is enough.
     """
     return begin // WIDTH * 2
 
 
 @compiled_for_teams
 def give_back(start, count, workspace):
-    """Bring the impulses of so many lively blocks from `start` on back to their contacts.
-
-    Parameters
-    ----------
-    start, count : int
-        Lively blocks from start to start + count.
-    workspace : Workspace
-        Impulses [N s] go from its lively_contacts to its contacts; lanes left over are passed by.
-    """
+    """Bring impulses [N s] of lively blocks start to start + count back to their contacts."""
     blocks, copies, contacts = workspace.lively_blocks, workspace.lively_contacts, workspace.contacts
     for block in range(start, start + count):
         for lane in range(WIDTH):
@@ -162,27 +108,9 @@ def give_back(start, count, workspace):
 def in_blocks(
     team: Team, begin: np.ndarray, pair: np.ndarray, bodies: np.ndarray, workspace: Workspace
 ) -> tuple[Slabs, Workspace]:
-    """Pairs in the order of slabs, dealt into blocks by a team.
+    """Pairs in the order of slabs, dealt into blocks by a team, with a workspace that fits them.
 
-    Parameters
-    ----------
-    team : Team
-        Threads.
-    begin : ndarray of int (slabs + 2,)
-        First pair of each slab (slabs_of).
-    pair : ndarray of int (c,)
-        Places in the list of pairs.
-    bodies : ndarray of int (c, 2)
-        Of each pair.
-    workspace : Workspace
-        To go on with, if it is large enough.
-
-    Returns
-    -------
-    Slabs
-        The pairs in slabs and blocks.
-    Workspace
-        For them.
+    `begin` (slabs + 2,), `pair` (c,) and `bodies` (c, 2) are those of `slabs_of`.
     """
     spheres, planes = workspace.wall + 1 - workspace.planes, workspace.planes
     if workspace.block.size < pair.size:

@@ -46,20 +46,7 @@ CHANGED, SIZE, FASTEST, NOTED, COUNT, DEEPEST, PUSHED, LIVELY_BLOCKS = range(8)
 
 @compiled_for_teams
 def contacts_of(contacts, block):
-    """Normal, impulse, target and mass (Workspace) of the contacts of a block.
-
-    Parameters
-    ----------
-    contacts : ndarray (b, 8, 8)
-        Of `Workspace`: a line for each quantity.
-    block : int
-        Which.
-
-    Returns
-    -------
-    tuple of lanes
-        Normal (3), impulse (3) [N s], target [m/s] and mass [kg] of eight contacts.
-    """
+    """Normal (3), impulse (3) [N s], target [m/s] and mass [kg] of the eight contacts of a block."""
     return (
         load(contacts, block, 0), load(contacts, block, 1), load(contacts, block, 2),
         load(contacts, block, 3), load(contacts, block, 4), load(contacts, block, 5),
@@ -69,28 +56,12 @@ def contacts_of(contacts, block):
 
 @compiled_for_teams
 def new_impulse(contact, i, j, friction, relaxation):
-    """(impulse x, y, z, violation [m/s]) of contacts between bodies that move as i and j, eight at once.
+    """(impulse x, y, z [N s], violation [m/s]) of contacts between bodies that move as i and j, eight at once.
 
-    Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`. The violation
-    is what the opening lacks of its target. A gap that is open may close, so its target is below zero.
-    The local Delassus operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it. The change of an impulse is
-    multiplied by `relaxation` before the laws cut it.
-
-    Parameters
-    ----------
-    contact : tuple of lanes
-        Of `contacts_of`.
-    i, j : tuple of lanes
-        Motion of the first and the second bodies, rows of Workspace.motion.
-    friction : lanes
-        Coefficient of each contact.
-    relaxation : lanes
-        Above one it over-relaxes.
-
-    Returns
-    -------
-    tuple of lanes
-        Impulse x, y, z [N s], and violation [m/s].
+    Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`. The violation is
+    what the opening lacks of its target. A gap that is open may close, so its target is below zero. The local Delassus
+    operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it. The change of an impulse is multiplied by
+    `relaxation` before the laws cut it; above one it over-relaxes.
     """
     nx, ny, nz, px, py, pz, target, mass = contact
     vx, vy, vz = j[0] - i[0], j[1] - i[1], j[2] - i[2]
@@ -112,21 +83,7 @@ def new_impulse(contact, i, j, friction, relaxation):
 
 @compiled_for_teams
 def push(motion, blocks, block, contact, i, j, x, y, z):
-    """Give impulses at its contacts to the second bodies of a block, their opposites to the first.
-
-    Parameters
-    ----------
-    motion : ndarray (r, 8)
-        Of the workspace; is changed.
-    blocks : ndarray of int (b, 3, 8)
-        Contacts and their bodies.
-    block : int
-        Which.
-    contact, i, j : tuple of lanes
-        Its contacts, first bodies and second bodies.
-    x, y, z : lanes
-        Impulses [N s].
-    """
+    """Give impulses [N s] at its contacts to the second bodies of a block, their opposites to the first."""
     nx, ny, nz = contact[:3]
     tx, ty, tz = ny * z - nz * y, nz * x - nx * z, nx * y - ny * x
     w, u = i[3], i[7]
@@ -141,41 +98,11 @@ def push(motion, blocks, block, contact, i, j, x, y, z):
 def sweep_blocks(
     blocks, contacts, begin, count, noted_from, friction, relaxation, quiet, calm, workspace, rows, spare
 ):
-    """One Gauss-Seidel sweep over some blocks; updates impulses and motion.
+    """One Gauss-Seidel sweep over blocks begin to begin + count; updates impulses and motion in place.
 
-    Contacts whose impulse changes by more than the root of `quiet`, and those that close faster than they may
-    by more than `calm`, are noted in workspace.lively.
-
-    Parameters
-    ----------
-    blocks : ndarray of int (b, 3, 8)
-        Contacts, first bodies, second bodies.
-    contacts : ndarray (b, 8, 8)
-        What each contact has, see `Workspace`; its impulses change in place.
-    begin, count : int
-        Blocks begin to begin + count are swept.
-    noted_from : int
-        Where in workspace.lively the noted contacts begin.
-    friction : tuple of float
-        Between bodies that yield, and with those that do not.
-    relaxation : float
-        By which the change of an impulse is multiplied.
-    quiet : float
-        Square of a change of impulse [N2 s2].
-    calm : float
-        Violation of speed [m/s].
-    workspace : Workspace
-        Whose motion changes in place.
-    rows : ndarray of int (1, 1, 8)
-        Room.
-    spare : int
-        Row of workspace.noted for contacts that are not noted.
-
-    Returns
-    -------
-    tuple
-        Sums of squares of the change of impulse and of the impulse [N2 s2], the largest violation of
-        speed [m/s], and how many contacts were noted.
+    Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than they may
+    by more than `calm` [m/s], are noted in workspace.lively; row `spare` is for the others. Returns the sums of squares
+    of the change of impulse and of the impulse [N2 s2], the largest violation [m/s], and how many contacts were noted.
     """
     motion = workspace.motion
     changed, size, fastest = zeros(), zeros(), zeros()
@@ -213,26 +140,10 @@ def sweep_blocks(
 
 @compiled_for_teams
 def guide_wall(motion, wall, drive, push):
-    """Move a body between rails along z, no faster down than its drive.
+    """Move a body between rails along z, no faster down than its drive; gives the new impulse [N s].
 
-    Its drive pushes it down with the impulse that this takes, but at most with drive[1], and pulls without
-    limit. A wall of infinite mass needs none.
-
-    Parameters
-    ----------
-    motion : ndarray (r, 8)
-        Of the workspace; is changed.
-    wall : int
-        Row of the body.
-    drive : ndarray (2,)
-        Largest speed down [m/s] and largest impulse [N s].
-    push : float
-        The impulse so far [N s].
-
-    Returns
-    -------
-    float
-        The new impulse [N s].
+    Its drive pushes it down with the impulse that this takes, but at most with drive[1] [N s], and pulls without limit.
+    drive[0] is a velocity along z [m/s], negative downwards; a wall of infinite mass needs no drive.
     """
     inverse_mass = motion[wall, 3]
     if inverse_mass == 0.0:
@@ -246,24 +157,7 @@ def guide_wall(motion, wall, drive, push):
 
 @compiled_for_teams
 def push_blocks(contacts, motion, blocks, begin, count):
-    """Give the impulses that contacts start with to their bodies.
-
-    Parameters
-    ----------
-    contacts : ndarray (b, 8, 8)
-        What each contact has, see `Workspace`.
-    motion : ndarray (r, 8)
-        Of the bodies; it changes in place.
-    blocks : ndarray of int (b, 3, 8)
-        Contacts, first bodies, second bodies.
-    begin, count : int
-        Blocks begin to begin + count.
-
-    Returns
-    -------
-    float
-        Sum of the squares of the impulses [N2 s2].
-    """
+    """Give starting impulses of blocks begin to begin + count to bodies, and the sum of their squares [N2 s2]."""
     size = zeros()
     for block in range(begin, begin + count):
         contact = contacts_of(contacts, block)
@@ -276,34 +170,10 @@ def push_blocks(contacts, motion, blocks, begin, count):
 
 @compiled_for_teams
 def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, ends, quiet, calm, last_block, rows):
-    """A sweep over every other slab of some.
+    """A sweep over every other slab of `part`, all contacts if `everyone`, else the copies of those noted.
 
-    Over all contacts, or over the copies of those that were noted. Notes contacts anew if `quiet` or `calm`
-    is finite.
-
-    Parameters
-    ----------
-    part : tuple of int
-        First slab, and the one before which it ends.
-    slabs : Slabs
-        Contacts in the order of slabs and blocks.
-    workspace : Workspace
-        Motion, contacts and account; they change in place.
-    friction : tuple of float
-        Between spheres, and with walls; all contacts of the last slab are with the last wall, which may
-        yield.
-    relaxation : float
-        By which the change of an impulse is multiplied.
-    everyone : bool
-        Whether all contacts are swept, or those that were noted.
-    ends : bool
-        Whether the noted ones give their impulses back after this sweep.
-    quiet, calm : float
-        As of `sweep_blocks` [N2 s2], [m/s].
-    last_block : ndarray of int (r,)
-        Room of this member alone, for `number_blocks`.
-    rows : ndarray of int (1, 1, 8)
-        Room of this member alone.
+    Notes contacts anew if `quiet` [N2 s2] or `calm` [m/s] is finite; where it `ends`, copies give their impulses back
+    afterwards. All contacts of the last slab are with the last wall, which may yield.
     """
     account = workspace.account
     for s in range(part[0], part[1], 2):
@@ -330,42 +200,12 @@ def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, ends, qu
 def sweep_until(
     rank, members, barrier, slabs, workspace, friction, drive, tolerance, calm, enough_sweeps, most_sweeps
 ):
-    """Gauss-Seidel from the given impulses until their relative change is below tolerance; run by all members of
-    a team.
+    """Gauss-Seidel from the given impulses until their change is small; run by all members of a team.
 
-    Sweeps run in rounds. The first of each visits all contacts and decides whether to end; the others visit
-    those whose impulse then changed by more than `tolerance` of the root mean square impulse, or that closed
-    faster than they may by more than `calm`. Sweep AGAIN of a round leaves out those that no longer do.
-
-    Parameters
-    ----------
-    rank, members : int
-        Which member of how many.
-    barrier : ndarray
-        Where they meet.
-    slabs : Slabs
-        The contacts.
-    workspace : Workspace
-        Is changed.
-    friction : tuple of float
-        Between spheres, and with planes.
-    drive : ndarray (2,)
-        Of the last body (guide_wall).
-    tolerance : float
-        Relative change of the impulses.
-    calm : float
-        [m/s].
-    enough_sweeps : int
-        After which the tolerance is waived, `calm` never.
-    most_sweeps : int
-        After which it ends.
-
-    Returns
-    -------
-    int
-        Sweeps of either kind.
-    float
-        Relative change of the last sweep over all contacts.
+    Sweeps run in rounds. The first of each visits all contacts and decides whether to end; the others visit those whose
+    impulse then changed by more than `tolerance` of the root mean square impulse, or that closed faster than they may
+    by more than `calm` [m/s]. Sweep AGAIN of a round leaves out those that no longer do. After `enough_sweeps` the
+    tolerance is waived, `calm` never. Gives sweeps of either kind and the last full relative change.
     """
     begin, last = slabs.begin, slabs.begin.shape[0] - 2
     account, motion = workspace.account, workspace.motion

@@ -34,25 +34,10 @@ OUT_OF_REACH = 1e30  # m or m/s
 
 @compiled_for_teams
 def normal_and_gap(i, j, position, radius, plane_point, plane_normal):
-    """(x, y, z, gap): unit normal from body i to body j, and their gap [m].
+    """(x, y, z, gap): unit normal from body i to body j, and their gap [m], below zero where they overlap.
 
-    Parameters
-    ----------
-    i : int
-        A sphere.
-    j : int
-        A sphere, or from n on plane j - n.
-    position : ndarray (n, 3)
-        Centres [m].
-    radius : ndarray (n,)
-        [m].
-    plane_point, plane_normal : ndarray (p, 3)
-        [m], and unit normals that point to the spheres.
-
-    Returns
-    -------
-    tuple of float
-        Normal x, y, z, and the gap [m], below zero where they overlap; spheres in one place part along z.
+    `j` is a sphere, or from n on plane j - n, whose given normal points to the spheres. Spheres in one place part
+    along z.
     """
     n = position.shape[0]
     if j < n:
@@ -75,30 +60,7 @@ def normal_and_gap(i, j, position, radius, plane_point, plane_normal):
 
 @compiled
 def near_pairs(position, radius, plane_point, plane_normal, start, other, below):
-    """Pairs of a list that are near.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    plane_point, plane_normal : ndarray (p, 3)
-        [m], and unit normals that point to the spheres.
-    start, other : ndarray of int
-        The list of pairs (neighbours.py).
-    below : float
-        Gap [m].
-
-    Returns
-    -------
-    ndarray of int (c,)
-        First body.
-    ndarray of int (c,)
-        Second body.
-    ndarray (c,)
-        Gap [m].
-    """
+    """First bodies, second bodies and gaps [m] (c,) of those listed pairs whose gap is less than `below` [m]."""
     total = other.shape[0]
     first = np.empty(total, np.int64)
     second = np.empty(total, np.int64)
@@ -115,18 +77,9 @@ def near_pairs(position, radius, plane_point, plane_normal, start, other, below)
 
 @compiled_for_teams
 def pack_motion(velocity, inverse_mass, begin, end, motion):
-    """Bodies begin:end of workspace.motion.
+    """Write bodies begin:end of workspace.motion (r, 8).
 
-    Parameters
-    ----------
-    velocity : ndarray (n + p, 6)
-        [m/s], linear and spin as surface velocity.
-    inverse_mass : ndarray (n + p,)
-        [1/kg], zero for planes.
-    begin, end : int
-        Bodies begin to end are written, and no others.
-    motion : ndarray (r, 8)
-        Of `Workspace`: a cache line for each body.
+    `velocity` (n + p, 6) in m/s is linear and spin as surface velocity; `inverse_mass` [1/kg] is zero for planes.
     """
     for i in range(begin, end):
         for k in range(3):
@@ -138,19 +91,7 @@ def pack_motion(velocity, inverse_mass, begin, end, motion):
 
 @compiled_for_teams
 def pack_place(position, radius, begin, end, place):
-    """Spheres begin:end of workspace.place.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        Centres [m].
-    radius : ndarray (n,)
-        [m].
-    begin, end : int
-        Spheres begin to end are written, and no others.
-    place : ndarray (r, 8)
-        Of `Workspace`: a cache line for each body.
-    """
+    """Write spheres begin:end of workspace.place (r, 8), from `position` (n, 3) and `radius` (n,) in m."""
     for i in range(begin, end):
         for k in range(3):
             place[i, k] = position[i, k]
@@ -160,17 +101,7 @@ def pack_place(position, radius, begin, end, place):
 
 @compiled_for_teams
 def pack_planes(s, plane_point, plane_normal, workspace):
-    """The rows of slab s alone (private_rows), and the place of the wall.
-
-    Parameters
-    ----------
-    s : int
-        Slab.
-    plane_point, plane_normal : ndarray (p, 3)
-        [m], and unit normals that point to the spheres.
-    workspace : Workspace
-        Whose motion and place are written in the rows of the slab, and the places of the planes.
-    """
+    """Write the rows of slab `s` alone (private_rows), and the places of the planes, in `workspace`."""
     spheres = workspace.wall + 1 - workspace.planes
     nobody, row = private_rows(s, workspace)
     workspace.motion[nobody] = workspace.place[nobody] = 0.0
@@ -184,17 +115,7 @@ def pack_planes(s, plane_point, plane_normal, workspace):
 
 @compiled_for_teams
 def unpack_motion(motion, begin, end, velocity):
-    """The reverse of `pack_motion`, without the masses.
-
-    Parameters
-    ----------
-    motion : ndarray (r, 8)
-        Of `Workspace`.
-    begin, end : int
-        Bodies begin to end are written, and no others.
-    velocity : ndarray (n + p, 6)
-        [m/s], linear and spin as surface velocity.
-    """
+    """Write velocities of bodies begin:end from `motion`: the reverse of `pack_motion`, without masses."""
     for i in range(begin, end):
         for k in range(3):
             velocity[i, k] = motion[i, k]
@@ -203,22 +124,9 @@ def unpack_motion(motion, begin, end, velocity):
 
 @compiled_for_teams
 def lay_in(rank, members, barrier, impulse, pair, contacts):
-    """Impulses from the list of pairs to the blocks of contacts; run by all members of a team.
+    """Put impulses (pairs, 3) [N s] from the list of pairs into blocks of contacts; run by all members.
 
-    They stay there from step to step, as long as the list does.
-
-    Parameters
-    ----------
-    rank, members : int
-        Which member of how many; each does a part of the blocks.
-    barrier : ndarray
-        Where they meet.
-    impulse : ndarray (pairs, 3)
-        On the second body of each pair [N s].
-    pair : ndarray of int (8 b,)
-        Place of each contact in the list; -1 where a lane is left over, which gets zeros.
-    contacts : ndarray (b, 8, 8)
-        Of `Workspace`.
+    They stay there as long as the list does. `pair` (8 b,) is the place in the list, -1 for a lane left over: zeros.
     """
     mark_started(barrier)
     begin, end = partition(rank, members, pair.shape[0] // WIDTH)
@@ -231,21 +139,7 @@ def lay_in(rank, members, barrier, impulse, pair, contacts):
 
 @compiled_for_teams
 def take_out(rank, members, barrier, impulse, pair, contacts):
-    """Impulses from the blocks of contacts to the list of pairs: the reverse of `lay_in`.
-
-    Parameters
-    ----------
-    rank, members : int
-        Which member of how many; each does a part of the blocks.
-    barrier : ndarray
-        Where they meet.
-    impulse : ndarray (pairs, 3)
-        Written: on the second body of each pair [N s].
-    pair : ndarray of int (8 b,)
-        Place of each contact in the list; -1 where a lane is left over.
-    contacts : ndarray (b, 8, 8)
-        Of `Workspace`.
-    """
+    """Impulses [N s] from the blocks of contacts to the list of pairs, written: the reverse of `lay_in`."""
     mark_started(barrier)
     begin, end = partition(rank, members, pair.shape[0] // WIDTH)
     for block in range(begin, end):
@@ -258,28 +152,10 @@ def take_out(rank, members, barrier, impulse, pair, contacts):
 
 @compiled_for_teams
 def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
-    """The contacts of a slab, whose impulses stand in `workspace`: pairs that may touch within the step.
+    """Write the contacts of slab `s`, whose impulses stand in `workspace`: pairs that may touch in the step.
 
-    A pair takes part when its gap, less the approach at the free velocity, is below `margin`. Any other is
-    given no impulse, no mass, and a target that it cannot miss.
-
-    Parameters
-    ----------
-    s : int
-        Slab.
-    slabs : Slabs
-        Pairs in the order of slabs and blocks.
-    workspace : Workspace
-        Place and motion are read; contacts are written, and in its account their number and the largest
-        overlap [m].
-    dt : float
-        Step [s].
-    recovery_speed : float
-        At most so fast is an overlap undone [m/s].
-    allowed_overlap : float
-        What stays of it [m].
-    margin : float
-        [m].
+    A pair takes part when its gap, less the approach at the free velocity, is below `margin` [m]. Any other is given no
+    impulse, no mass, and a target that it cannot miss. The account gets the number and the largest overlap [m].
     """
     zero, one, half = zeros(), broadcast(1.0), broadcast(0.5)
     contacts = workspace.contacts
@@ -327,20 +203,9 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
 
 @compiled_for_teams
 def rebound(s, slabs, workspace, velocity, restitution):
-    """Targets of those contacts of slab s that would close within the step at the velocities of its start.
+    """Targets [m/s] of contacts of slab `s` that would close within the step at `velocity` [m/s], that of its start.
 
-    Parameters
-    ----------
-    s : int
-        Slab.
-    slabs : Slabs
-        Pairs in the order of slabs and blocks.
-    workspace : Workspace
-        Of `pack_slab`; targets [m/s] of its contacts are written.
-    velocity : ndarray (n + p, 6)
-        At the start of the step [m/s].
-    restitution : float
-        Speed after an impact over that before it (Newton).
+    `restitution` is the speed after an impact over that before it (Newton).
     """
     spheres, row = workspace.wall + 1 - workspace.planes, private_rows(s, workspace)[1]
     contacts = workspace.contacts
@@ -383,62 +248,12 @@ def step(
     enough_sweeps,
     most_sweeps,
 ):
-    """Advance spheres by one step; position, velocity and impulses change in place. Run by all members of a team.
+    """Advance spheres by `dt` [s] in place; gives sweeps, their last relative change, largest overlap [m].
 
-    Each member does its slabs and its share of the bodies. Overlaps beyond allowed_overlap are undone, no
-    faster than by recovery_speed.
-
-    Parameters
-    ----------
-    rank, members : int
-        Which member of how many.
-    barrier : ndarray
-        Where they meet.
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    velocity : ndarray (n + p, 6)
-        [m/s], linear and spin; planes last, prescribed.
-    inverse_mass : ndarray (n + p,)
-        [1/kg], zero for planes.
-    plane_point, plane_normal : ndarray (p, 3)
-        [m], and unit normals that point to the spheres.
-    gravity : ndarray (3,)
-        [m/s2].
-    slabs : Slabs
-        The pairs.
-    workspace : Workspace
-        For at least as many; `contacts` has the impulses of the last step.
-    drive : ndarray (2,)
-        Speed [m/s] and largest impulse [N s] of the last plane where its mass is finite (guide_wall).
-    dt : float
-        [s].
-    friction : tuple of float
-        Between spheres, and with planes.
-    restitution : float
-        Of impacts.
-    recovery_speed : float
-        [m/s]; zero: overlaps are never undone.
-    allowed_overlap : float
-        [m].
-    margin : float
-        Gap below which a pair is a contact [m].
-    tolerance : float
-        Of sweep_until.
-    penetration : float
-        What a step may add to an overlap [m].
-    enough_sweeps, most_sweeps : int
-        Of sweep_until.
-
-    Returns
-    -------
-    int
-        Sweeps.
-    float
-        Relative change of the last sweep.
-    float
-        Largest overlap at the start [m].
+    Run by all members of a team, each with its slabs and its share of the bodies. Overlaps beyond `allowed_overlap` [m]
+    are undone no faster than by `recovery_speed` [m/s]; zero: never. `velocity` (n + p, 6) has planes last, of
+    `inverse_mass` zero unless `drive` moves the last (guide_wall). A gap below `margin` [m] is a contact; a step may
+    add `penetration` [m] to an overlap.
     """
     mark_started(barrier)
     n, bodies, last = position.shape[0], velocity.shape[0], slabs.begin.shape[0] - 2

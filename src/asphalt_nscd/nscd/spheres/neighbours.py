@@ -29,58 +29,17 @@ class Reach(NamedTuple):
 
 
 def find_pairs(position, radius, plane_point, plane_normal, reach):
-    """Pairs whose gap is small, searched by one thread; see `find_pairs_within`.
-
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    plane_point, plane_normal : ndarray (p, 3)
-        [m], and unit normals that point to the spheres.
-    reach : float
-        Gap below which a pair is listed [m].
-
-    Returns
-    -------
-    ndarray of int (n + 1,)
-        start.
-    ndarray of int
-        other.
-    """
+    """Pairs (start (n + 1,), other) whose gap is below `reach` [m], by one thread; see `find_pairs_within`."""
     n, planes = position.shape[0], plane_point.shape[0]
     everywhere = Reach(np.full(n, reach), np.zeros(n), np.full(planes, reach))
     return find_pairs_within(Team(), position, radius, plane_point, plane_normal, everywhere, n)
 
 
 def find_pairs_within(team, position, radius, plane_point, plane_normal, reach, first_plane):
-    """Pairs whose gap is within their Reach, searched by a team.
+    """Pairs (start (n + 1,), other) whose gap is within their Reach, searched by a team.
 
-    Sphere i is paired with bodies other[start[i]:start[i + 1]], ascending; body first_plane + k is plane k.
-    Each pair appears once, under its larger sphere (under the lower index when equal).
-
-    Parameters
-    ----------
-    team : Team
-        Threads.
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    plane_point, plane_normal : ndarray (p, 3)
-        [m], and unit normals that point to the spheres.
-    reach : Reach
-        Gaps below which pairs are listed.
-    first_plane : int
-        Number of the first plane.
-
-    Returns
-    -------
-    ndarray of int (n + 1,)
-        start.
-    ndarray of int
-        other.
+    Sphere i is paired with bodies other[start[i]:start[i + 1]], ascending; body first_plane + k is plane k. Each pair
+    appears once, under its larger sphere (under the lower index when equal). Lengths in m.
     """
     if position.shape[0] == 0:
         return np.zeros(1, np.int64), np.empty(0, np.int64)
@@ -176,29 +135,11 @@ def _partners(
 
 
 def closing_speeds(team, position, radius, velocity, reach):
-    """Bounds of the speeds at which each sphere and its neighbours may close in.
+    """Bounds (n,) [m/s] of the speeds at which each sphere and its neighbours within `reach` [m] may close in.
 
-    Only spheres that are not larger count, as in find_pairs. Velocity is bounded within thin horizontal
-    slabs: grains that rain at the same speed, or rest together, do not close in. The sphere's own speed is no
-    better than theirs: an impact may stop it, or hand on all of its own, within the step.
-
-    Parameters
-    ----------
-    team : Team
-        Threads.
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    velocity : ndarray (n, 3)
-        [m/s].
-    reach : float
-        Gap below which a sphere is a neighbour [m].
-
-    Returns
-    -------
-    ndarray (n,)
-        [m/s].
+    Only spheres that are not larger count, as in find_pairs. Velocity is bounded within thin horizontal slabs: grains
+    that rain at the same speed, or rest together, do not close in. The sphere's own speed is no better than theirs: an
+    impact may stop it, or hand on all of its own, within the step.
     """
     bound = np.empty(position.shape[0])
     team.run(
@@ -251,18 +192,7 @@ def _bound_speeds(
 
 @compiled
 def speeds(velocity):
-    """Speeds of spheres.
-
-    Parameters
-    ----------
-    velocity : ndarray (n, 3 or more)
-        [m/s].
-
-    Returns
-    -------
-    ndarray (n,)
-        [m/s].
-    """
+    """Speeds (n,) [m/s] of spheres whose velocities (n, 3 or more) are in m/s."""
     found = np.empty(velocity.shape[0])
     for i in range(found.shape[0]):
         found[i] = np.sqrt(velocity[i, 0] ** 2 + velocity[i, 1] ** 2 + velocity[i, 2] ** 2)
@@ -271,20 +201,7 @@ def speeds(velocity):
 
 @compiled
 def moved_beyond(position, before, allowed):
-    """How far any sphere has moved beyond what is allowed to it.
-
-    Parameters
-    ----------
-    position, before : ndarray (m, 3)
-        Where spheres are and were [m].
-    allowed : ndarray (m,)
-        [m].
-
-    Returns
-    -------
-    float
-        [m], not below zero.
-    """
+    """How far [m], not below zero, any sphere has moved from `before` (m, 3) [m] beyond its `allowed` (m,) [m]."""
     furthest = 0.0
     for i in range(before.shape[0]):
         x, y, z = position[i, 0] - before[i, 0], position[i, 1] - before[i, 1], position[i, 2] - before[i, 2]
@@ -293,24 +210,7 @@ def moved_beyond(position, before, allowed):
 
 
 def carry_reactions(team, old_start, old_other, old_reaction, start, other):
-    """Reactions of the old list of pairs moved to the new one; spheres may join.
-
-    Parameters
-    ----------
-    team : Team
-        Threads.
-    old_start, old_other : ndarray of int
-        The old list.
-    old_reaction : ndarray (pairs, 3)
-        Of the old list [N s].
-    start, other : ndarray of int
-        The new list.
-
-    Returns
-    -------
-    ndarray (pairs, 3)
-        [N s], zero where a pair is new.
-    """
+    """Reactions (pairs, 3) [N s] of the old list moved to the new one, zero where new; spheres may join."""
     reaction = np.empty((other.shape[0], 3))
     team.run(_carry, old_start, old_other, old_reaction, start, other, reaction)
     return reaction

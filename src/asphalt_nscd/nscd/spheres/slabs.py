@@ -60,22 +60,7 @@ class Workspace(NamedTuple):
 
 
 def workspace_for(contacts: int, bodies: int, planes: int) -> Workspace:
-    """Room for a step.
-
-    Parameters
-    ----------
-    contacts : int
-        How many.
-    bodies : int
-        How many, planes among them.
-    planes : int
-        How many.
-
-    Returns
-    -------
-    Workspace
-        Arrays of zeros.
-    """
+    """Workspace of zeros for a step; planes count among `bodies`."""
     rows, blocks = bodies + (MOST_SLABS + 1) * (planes + 1), -(-contacts // WIDTH)
     lively, block, lane, filled, following = np.empty((5, contacts), np.int32)
     return Workspace(
@@ -99,19 +84,9 @@ def workspace_for(contacts: int, bodies: int, planes: int) -> Workspace:
 
 @compiled_for_teams
 def private_rows(s, workspace):
-    """Rows of a slab alone, so that no two threads write to one.
+    """Rows of slab `s` alone, so that no two threads write to one.
 
-    Parameters
-    ----------
-    s : int
-        Slab.
-    workspace : Workspace
-        Whose rows.
-
-    Returns
-    -------
-    tuple of int
-        A body that stays zero, for lanes left over; its copy of the first plane, then of the others.
+    A body that stays zero, for lanes left over, and the slab's copy of the first plane, which the others follow.
     """
     body = workspace.wall + 1 + s * (workspace.planes + 1)
     return body, body + 1
@@ -122,25 +97,8 @@ def slabs_of(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The pairs of a list in slabs along the longer horizontal axis, from the top down in each.
 
-    Parameters
-    ----------
-    team : Team
-        Threads.
-    position : ndarray (n, 3)
-        [m].
-    start, other : ndarray of int
-        The list of pairs (neighbours.py).
-    last_body : int
-        Number of the body that all may touch.
-
-    Returns
-    -------
-    ndarray of int (slabs + 2,)
-        begin.
-    ndarray of int (c,)
-        Place of each pair in the list.
-    ndarray of int (c, 2)
-        Bodies of each pair.
+    Returns the first pair of each slab (slabs + 2,), the places in the list (c,) and the bodies (c, 2) of pairs;
+    `last_body` is the body that all may touch.
     """
     n, pairs = position.shape[0], other.shape[0]
     pair, bodies = np.empty(pairs, np.int32), np.empty((pairs, 2), np.int32)
@@ -242,19 +200,7 @@ def _deal(
 def first_and_end(rank, members, slabs, kind):
     """What a member sweeps: slabs first, first + 2, ... before `end`.
 
-    Parameters
-    ----------
-    rank, members : int
-        Which member of how many.
-    slabs : int
-        How many.
-    kind : int
-        0 for slabs of even number, 1 for odd; 2 is the slab of the last body, which the first member sweeps.
-
-    Returns
-    -------
-    tuple of int
-        First and end.
+    `kind` is 0 for slabs of even number, 1 for odd; 2 is the slab of the last body, which the first member sweeps.
     """
     if kind == 2:
         return slabs, slabs + (1 if rank == 0 else 0)
@@ -264,24 +210,7 @@ def first_and_end(rank, members, slabs, kind):
 
 @compiled_for_teams
 def part_of(rank, members, slabs, kind, work):
-    """The same, with parts of about equal work.
-
-    Parameters
-    ----------
-    rank, members : int
-        Which member of how many.
-    slabs : int
-        How many.
-    kind : int
-        As of first_and_end.
-    work : ndarray (slabs,)
-        Of each slab, not negative.
-
-    Returns
-    -------
-    tuple of int
-        First and end.
-    """
+    """What a member sweeps, as of `first_and_end`, but with parts of about equal `work` (slabs,)."""
     if kind == 2:
         return first_and_end(rank, members, slabs, kind)
     total = 0.0

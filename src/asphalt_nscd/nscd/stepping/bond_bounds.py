@@ -23,18 +23,10 @@ class BeyondExcerpt(Exception):
 
 @dataclass(frozen=True)
 class Rest:
-    """Of all bonds that are not listed: the largest contribution of each coordinate, the smallest gap.
+    """Bounds of all bonds that are not listed: the largest contribution of each coordinate, the least gap.
 
-    Parameters
-    ----------
-    utilised : ndarray (k,)
-        Yield measure per unit of s.
-    closed : ndarray (k,)
-        Share of the gap that closes per unit of q.
-    travel : ndarray (k,)
-        m of the gap per unit of q.
-    gap : float
-        [m].
+    `utilised` (k,) is the yield measure per unit of s, `closed` (k,) the share of the gap that closes per unit of q,
+    `travel` (k,) the metres of it per unit of q; `gap` in m.
     """
 
     utilised: np.ndarray
@@ -47,18 +39,8 @@ class Rest:
 class BondBounds:
     """Contributions of each coordinate, taken alone and positive, to the state of bonds.
 
-    Parameters
-    ----------
-    number : ndarray (n,)
-        Of the bonds listed, ascending.
-    utilised : ndarray (n, k)
-        Yield measure per unit of s.
-    closed : ndarray (n, k)
-        Share of the gap that closes per unit of q.
-    gap : ndarray (n,)
-        [m].
-    rest : Rest, optional
-        None where all bonds are listed.
+    `number` (n,) of the bonds listed, ascending; `utilised` (n, k) is the yield measure per unit of s, `closed` (n, k)
+    the share of the gap that closes per unit of q; `gap` (n,) in m; `rest` is None where all bonds are listed.
     """
 
     number: np.ndarray
@@ -68,41 +50,13 @@ class BondBounds:
     rest: Rest | None = None
 
     def utilisation(self, sigma: np.ndarray) -> np.ndarray:
-        """Upper bound of the yield measure while |s| <= sigma.
-
-        Parameters
-        ----------
-        sigma : ndarray (k,)
-            Envelope of the stress coordinates.
-
-        Returns
-        -------
-        ndarray
-            (n,) Of the bonds listed.
-        """
+        """Upper bound (n,) of the yield measure of listed bonds while |s| <= sigma (k,)."""
         return _of_each(self.utilised, sigma)
 
     def candidates(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Bonds that could yield, and whose gaps could close.
+        """Numbers of the bonds that could yield, and of those whose gaps could close, within envelopes.
 
-        Parameters
-        ----------
-        sigma : ndarray (k,)
-            Envelope of the stress coordinates.
-        motion : ndarray (k,)
-            Envelope of the coordinates of motion.
-
-        Returns
-        -------
-        ndarray of int
-            Numbers of bonds that could yield.
-        ndarray of int
-            Numbers of bonds whose gap could close.
-
-        Raises
-        ------
-        BeyondExcerpt
-            Where a bond that is not listed could.
+        `sigma` (k,) bounds |s|, `motion` (k,) bounds |q|. BeyondExcerpt where a bond that is not listed could.
         """
         rest = self.rest
         if rest is not None and not self._all_below_one(rest, sigma, motion):
@@ -111,25 +65,7 @@ class BondBounds:
         return may_yield, self.number[_of_each(self.closed, motion) > 1.0]
 
     def any_candidate(self, sigma: np.ndarray, motion: np.ndarray) -> bool:
-        """Whether any bond could yield, or any gap close.
-
-        Parameters
-        ----------
-        sigma : ndarray (k,)
-            Envelope of the stress coordinates.
-        motion : ndarray (k,)
-            Envelope of the coordinates of motion.
-
-        Returns
-        -------
-        bool
-            True if one could.
-
-        Raises
-        ------
-        BeyondExcerpt
-            Where a bond that is not listed could.
-        """
+        """Whether any bond could yield or any gap close within envelopes (k,); BeyondExcerpt if an unlisted could."""
         if (self.utilisation(sigma) > 1.0).any() or (_of_each(self.closed, motion) > 1.0).any():
             return True
         if self.rest is not None and not self._all_below_one(self.rest, sigma, motion):
@@ -139,28 +75,9 @@ class BondBounds:
     def largest_utilisation(
         self, sigma: np.ndarray, without: np.ndarray, least: float, of_all: bool = True
     ) -> float:
-        """The largest bound of the yield measure.
+        """The largest bound of the yield measure while |s| <= sigma (k,), of bonds not in `without`, at least `least`.
 
-        Parameters
-        ----------
-        sigma : ndarray (k,)
-            Envelope of the stress coordinates.
-        without : ndarray of int
-            Numbers of bonds that do not count.
-        least : float
-            What it is at least.
-        of_all : bool
-            Whether all bonds count, or those listed.
-
-        Returns
-        -------
-        float
-            Yield measure.
-
-        Raises
-        ------
-        BeyondExcerpt
-            Where a bond that is not listed may be it.
+        BeyondExcerpt where a bond that is not listed may have it, if `of_all`.
         """
         others = ~np.isin(self.number, without)
         largest = max(least, float(self.utilisation(sigma)[others].max(initial=0.0)))
@@ -169,23 +86,7 @@ class BondBounds:
         return largest
 
     def smallest_gap(self, motion: np.ndarray) -> float:
-        """Lower bound of all gaps while |q| <= motion.
-
-        Parameters
-        ----------
-        motion : ndarray (k,)
-            Envelope of the coordinates of motion.
-
-        Returns
-        -------
-        float
-            [m].
-
-        Raises
-        ------
-        BeyondExcerpt
-            Where a bond that is not listed may have it.
-        """
+        """Lower bound [m] of all gaps while |q| <= motion (k,); BeyondExcerpt where an unlisted one may have it."""
         smallest = float((self.gap * (1.0 - _of_each(self.closed, motion))).min())
         if self.rest is not None and self.rest.gap - float(self.rest.travel @ motion) < smallest + (
             MARGIN * self.rest.gap
@@ -194,48 +95,16 @@ class BondBounds:
         return smallest
 
     def beyond_head(self, bonds: np.ndarray, sigma: np.ndarray) -> np.ndarray:
-        """While |s| <= sigma, the yield measure is below [:, 0] |s_0| + [:, 1].
-
-        Parameters
-        ----------
-        bonds : ndarray of int (m,)
-            Listed bonds.
-        sigma : ndarray (k,)
-            Envelope of the stress coordinates.
-
-        Returns
-        -------
-        ndarray
-            (m, 2)
-        """
+        """For listed bonds (m,), (m, 2): while |s| <= sigma (k,), the yield measure is below [:, 0] |s_0| + [:, 1]."""
         part = self.utilised[self.places(bonds)]
         return np.column_stack([part[:, 0], part[:, 1:] @ sigma[1:]])
 
     def places(self, bonds: np.ndarray) -> np.ndarray:
-        """Places in the list.
-
-        Parameters
-        ----------
-        bonds : ndarray of int (m,)
-            By number.
-
-        Returns
-        -------
-        ndarray of int (m,)
-            By place.
-        """
+        """Places (m,) in the list of bonds given by number (m,)."""
         return np.searchsorted(self.number, bonds)
 
     def excerpt(self) -> tuple[BondBounds, np.ndarray]:
-        """The bonds that matter, and a bound for the others.
-
-        Returns
-        -------
-        BondBounds
-            Of the bonds that come first by each coordinate or by their gap.
-        ndarray of int
-            Which they are.
-        """
+        """Bounds of the bonds that come first by a coordinate or their gap, and of all others; and which they are."""
         chosen = np.zeros(self.number.size, bool)
         leading = [LEADING] * 2 + [OTHERS] * (self.utilised.shape[1] - 2)
         for a, count in enumerate(leading):

@@ -25,20 +25,11 @@ DEPTH = 2  # blocks of the Krylov space: residuals of 1e-6 with one, 2e-8 with t
 
 @dataclass(frozen=True)
 class StandBy:
-    """Directions ready for the break of some bonds.
+    """Directions ready for the break of some bonds, in single precision.
 
-    In single precision: they are what they are, and the projection is that of the rounded ones.
-
-    Parameters
-    ----------
-    bonds : ndarray of int (n,)
-        Which bonds.
-    owner : ndarray of int (m,)
-        Place of the bond that each column of directions belongs to.
-    directions : ndarray (d, m)
-        Columns.
-    projection : Projection
-        On basis and directions, the bonds removable.
+    Any directions serve, as the projection is that of the rounded ones. `owner` (m,) is the place in `bonds` (n,) of
+    the bond that each column of `directions` (d, m) belongs to; `projection` is on basis and directions, the bonds
+    removable.
     """
 
     bonds: np.ndarray
@@ -48,24 +39,7 @@ class StandBy:
 
     @classmethod
     def of(cls, system: BondedSystem, basis: np.ndarray, shifted: SuperLU, most: int = BONDS) -> StandBy:
-        """For the bonds that the driven motion alone, either way, breaks one after another.
-
-        Parameters
-        ----------
-        system : BondedSystem
-            Bonds and masses.
-        basis : ndarray (d, k)
-            Of the reduced form.
-        shifted : SuperLU
-            Solves K + SHIFT M.
-        most : int
-            How many bonds.
-
-        Returns
-        -------
-        StandBy
-            Their directions.
-        """
+        """Directions for `most` bonds that the driven motion alone, either way, breaks one by one."""
         search = _Search(system, basis, shifted, {})
         return cls._of(search, search.following([], most))
 
@@ -81,26 +55,7 @@ class StandBy:
     def with_those_of(
         self, bonds: Sequence[int], system: BondedSystem, basis: np.ndarray, shifted: SuperLU, ahead: int
     ) -> StandBy:
-        """With the directions of more bonds, and of the next that break once these have.
-
-        Parameters
-        ----------
-        bonds : sequence of int (m,)
-            Which are added.
-        system : BondedSystem
-            Bonds and masses.
-        basis : ndarray (d, k)
-            Of the reduced form.
-        shifted : SuperLU
-            Solves K + SHIFT M.
-        ahead : int
-            How many of the next.
-
-        Returns
-        -------
-        StandBy
-            All directions.
-        """
+        """With directions of more bonds (m,), and of the next `ahead` that break once these have."""
         known = {int(bond): self.directions[:, self.owner == place] for place, bond in enumerate(self.bonds)}
         search = _Search(system, basis, shifted, known)
         # each once, as asked: a restart that asks for this list gets the same columns to the bit
@@ -114,18 +69,7 @@ class StandBy:
 
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray]) -> StandBy:
-        """Of the `arrays` of a file.
-
-        Parameters
-        ----------
-        arrays : dict of str to ndarray
-            By name.
-
-        Returns
-        -------
-        StandBy
-            The same directions.
-        """
+        """Directions from the `arrays` of a file."""
         own = {name: arrays[name] for name in ("bonds", "owner", "directions")}
         projection: dict[str, Any] = {
             name: arrays[f"projection/{name}"] for name in Projection.__dataclass_fields__
@@ -135,22 +79,7 @@ class StandBy:
         return cls(**own, projection=Projection(**projection))
 
     def model(self, system: BondedSystem, basis: np.ndarray, broken: list[int]) -> ReducedModel | None:
-        """The reduced model without some bonds, on `basis` and the directions of these bonds in their order.
-
-        Parameters
-        ----------
-        system : BondedSystem
-            Bonds and masses.
-        basis : ndarray (d, k)
-            Of the reduced form.
-        broken : list of int
-            Bonds, in the order in which they broke.
-
-        Returns
-        -------
-        ReducedModel or None
-            None where a bond has no directions here, or none of its own.
-        """
+        """The reduced model without bonds `broken`; None where a bond has no directions here, or none of its own."""
         places = [np.flatnonzero(self.bonds == bond) for bond in broken]
         if not all(place.size for place in places):
             return None

@@ -29,18 +29,8 @@ CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
 class CondensedState:
     """Motion and bond history at one instant; all zero at rest.
 
-    Parameters
-    ----------
-    displacement : ndarray (d,)
-        [m or rad].
-    velocity : ndarray (d,)
-        [m/s] or [rad/s].
-    sigma : ndarray (3 b,)
-        [Pa].
-    kelvin : ndarray (k, 3 b)
-        [m].
-    broken : list of int
-        Bonds, in the order in which they broke.
+    `displacement` (d,) in m or rad, `velocity` (d,) in m/s or rad/s, `sigma` (3 b,) in Pa, `kelvin` (k, 3 b) in m;
+    `broken` lists bonds in the order in which they broke.
     """
 
     displacement: np.ndarray
@@ -51,48 +41,19 @@ class CondensedState:
 
     @classmethod
     def at_rest(cls, system: BondedSystem, law: AnyLaw) -> CondensedState:
-        """No motion, no stress.
-
-        Parameters
-        ----------
-        system : BondedSystem
-            Bonds and masses.
-        law : AnyLaw
-            Of the bonds, whose Kelvin elements it has.
-
-        Returns
-        -------
-        CondensedState
-            Zeros.
-        """
+        """State of no motion and no stress, with the Kelvin elements of the law."""
         d, rows = system.mass.size, system.weight.size
         kelvin = np.zeros((len(law.kelvin_springs), rows))
         return cls(np.zeros(d), np.zeros(d), np.zeros(rows), kelvin)
 
 
 class CondensedStepper:
-    """Steps the full system at constant dt and law; breaks bonds and meets contacts on the way.
+    """Steps the full system at constant dt [s] and law, breaks bonds and meets contacts; `state` is changed.
 
-    Of the last step: `missing` (d,) [N, N m], what the equations of motion lack, which is the driving force
-    where the motion is driven and rounding elsewhere; `utilisation`, the largest of a bond; `contact`,
-    (reactions [N], openings [m/s]) (3 c,) of the gaps that closed, or None. `on_break` is called with the
-    broken bonds when one more breaks, `on_contact` with the gaps that close before their reactions are
-    found; an error that one raises ends the step.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    law : AnyLaw
-        Of the bonds.
-    dt : float
-        Step [s].
-    state : CondensedState
-        To go on from; is changed.
-    devices : HeadDevices
-        At the head.
-    actuator : float
-        Its displacement at `state` [m].
+    Of the last step: `missing` (d,) [N, N m], what the equations of motion lack (the driving force where the motion is
+    driven, else rounding); `utilisation`, the largest of a bond; `contact`, (reactions [N], openings [m/s]) (3 c,) of
+    gaps that closed, or None. `on_break` is called with the broken bonds when one more breaks, `on_contact` with gaps
+    that close before their reactions are found; an error in one ends the step. `actuator` is in m, at `state`.
     """
 
     def __init__(
@@ -121,43 +82,17 @@ class CondensedStepper:
         return self._operator.weight
 
     def move(self, start: float, end: float) -> float:
-        """One step, given by the places of the actuator.
-
-        Parameters
-        ----------
-        start, end : float
-            Where it stands before and after [m].
-
-        Returns
-        -------
-        float
-            Its force [N].
-        """
+        """Force of the actuator [N] in one step, in which it moves from `start` to `end` [m]."""
         self.actuator = start
         force = self.advance((end - start) / self.dt)
         self.actuator = end
         return force
 
     def advance(self, driven_velocity: float) -> float:
-        """One step, given by the velocity of the actuator; the head moves with it if the clamp is rigid.
+        """Force of the actuator [N] in a step at its velocity [m/s]; the head moves with it if the clamp is rigid.
 
-        Bonds that yield break one after another, the most overstressed first, and the step is solved again
-        until none is left.
-
-        Parameters
-        ----------
-        driven_velocity : float
-            Of the actuator [m/s].
-
-        Returns
-        -------
-        float
-            Its force [N].
-
-        Raises
-        ------
-        ArithmeticError
-            Where the motion is not finite.
+        Bonds that yield break one after another, the most overstressed first, and the step is solved again until none
+        is left.
         """
         system, state, dt, law = self.system, self.state, self.dt, self.step_law
         explicit = law.explicit_part(state.sigma, state.kelvin)

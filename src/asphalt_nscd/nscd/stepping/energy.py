@@ -32,30 +32,12 @@ Form = Callable[[np.ndarray, np.ndarray], float]
 
 @dataclass
 class Energies:
-    """All in J. Stores at the present, the rest summed from the beginning.
+    """All in J: stores at the present, the rest summed from the beginning.
 
-    Parameters
-    ----------
-    actuator : float
-        Work of the actuator.
-    kinetic : float
-        Of all bodies.
-    springs : float
-        Stored in the springs of the bonds.
-    load : float
-        Potential of the load.
-    devices : float
-        Stored in clamp, spring and mass at the head.
-    dashpots : float
-        Dissipated in the dashpots of the bonds.
-    friction : float
-        Dissipated by tangential forces of contacts and by the slider at the head.
-    impact : float
-        Dissipated by normal forces of contacts, where gaps close.
-    fracture : float
-        Stored by bonds when they broke.
-    numerical : float
-        Dissipated by the scheme.
+    Stores: `kinetic`, `springs` of the bonds, `load` (its potential), `devices` (clamp, spring and mass at the head).
+    Sums: work of the `actuator`; dissipated in the `dashpots` of the bonds, by `friction` (tangential forces of
+    contacts and the slider at the head), by `impact` (normal forces of contacts, where gaps close), and by the scheme
+    (`numerical`); `fracture` is what bonds stored when they broke.
     """
 
     actuator: float = 0.0
@@ -82,49 +64,22 @@ class Energies:
 
 
 class EnergyAccount:
-    """Keeps the account of one run; the stepper may be exchanged between steps.
-
-    Parameters
-    ----------
-    law : AnyLaw
-        Of the bonds.
-    """
+    """Keeps the energy account of one run; the stepper may be exchanged between steps."""
 
     def __init__(self, law: AnyLaw) -> None:
         self.law, self.sums = law, Energies()
         self._broken = 0
 
     def resume(self, sums: Energies, broken: int) -> None:
-        """Go on from what a checkpoint holds.
-
-        Parameters
-        ----------
-        sums : Energies
-            Of all steps before.
-        broken : int
-            How many bonds had broken.
-        """
+        """Go on from the sums of all steps before and the number of bonds broken, as a checkpoint holds them."""
         self.sums, self._broken = sums, broken
 
     def count(
         self, stepper: Any, dt: float, force: float, before: History, base: History, after: History
     ) -> None:
-        """Add one step.
+        """Add one step of `dt` [s] under the actuator's `force` [N].
 
-        Parameters
-        ----------
-        stepper : CondensedStepper or ReducedStepper
-            Which made it.
-        dt : float
-            Its length [s].
-        force : float
-            Of the actuator [N].
-        before : History
-            The state at its start.
-        base : History
-            The state y* from which the scheme steps.
-        after : History
-            The state at its end.
+        `before` and `after` are the states at its start and end, `base` is the state y* from which the scheme steps.
         """
         of = forms(stepper)
         # a two-step scheme has rates over dt/a; the account is over dt
@@ -192,18 +147,7 @@ class Forms(NamedTuple):
 
 
 def forms(stepper: Any) -> Forms:
-    """The quadratic forms of a system.
-
-    Parameters
-    ----------
-    stepper : CondensedStepper or ReducedStepper
-        Full or reduced.
-
-    Returns
-    -------
-    Forms
-        Of stiffness and mass, with load and driven degree of freedom.
-    """
+    """Quadratic forms of stiffness and mass, full or reduced, with load and driven degree of freedom."""
     model = getattr(stepper, "model", None)
     if model is not None:
         return Forms(_matrix_form(model.stiffness), _matrix_form(model.mass), model.load, 0)

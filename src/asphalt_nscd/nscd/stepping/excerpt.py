@@ -39,33 +39,11 @@ class Excerpt:
         return self.load.size
 
     def reaction_of(self, bonds: np.ndarray) -> np.ndarray:
-        """Reactions of some bonds, as of a ReducedModel.
-
-        Parameters
-        ----------
-        bonds : ndarray of int (n,)
-            Listed ones.
-
-        Returns
-        -------
-        ndarray
-            (n, 3, k) Over their strength, per unit s.
-        """
+        """Reactions (n, 3, k) over their strength, per unit s, of listed bonds (n,), as of a ReducedModel."""
         return self.reaction[self.bounds.places(bonds)]
 
     def closing_of(self, bonds: np.ndarray) -> np.ndarray:
-        """Closing of the gaps of some bonds, as of a ReducedModel.
-
-        Parameters
-        ----------
-        bonds : ndarray of int (n,)
-            Listed ones.
-
-        Returns
-        -------
-        ndarray
-            (n, k) Share of their gaps, per unit q.
-        """
+        """Shares (n, k) of the gaps of listed bonds (n,) that close per unit q, as of a ReducedModel."""
         return self.closing[self.bounds.places(bonds)]
 
     def arrays(self) -> dict[str, np.ndarray]:
@@ -76,20 +54,7 @@ class Excerpt:
 
     @classmethod
     def of(cls, model: ReducedModel, whole: Callable[[], Any]) -> Excerpt:
-        """What a test needs of a model without broken bonds.
-
-        Parameters
-        ----------
-        model : ReducedModel
-            Reduced.
-        whole : callable
-            Gives the model and its directions for breaks, where they are needed.
-
-        Returns
-        -------
-        Excerpt
-            Small matrices and a few bonds.
-        """
+        """Excerpt of a model without broken bonds; `whole` gives the model and its directions when needed."""
         bounds, chosen = model.bounds.excerpt()
         return cls(
             **{name: getattr(model, name) for name in (*SMALL, *NUMBERS)},
@@ -101,20 +66,7 @@ class Excerpt:
 
     @classmethod
     def from_arrays(cls, arrays: dict[str, np.ndarray], whole: Callable[[], Any]) -> Excerpt:
-        """Of the `arrays` of a file.
-
-        Parameters
-        ----------
-        arrays : dict of str to ndarray
-            By name.
-        whole : callable
-            Gives the model and its directions for breaks, where they are needed.
-
-        Returns
-        -------
-        Excerpt
-            The same excerpt.
-        """
+        """Excerpt from the `arrays` of a file; `whole` gives the model and its directions when needed."""
         rest = {name: arrays[f"rest/{name}"] for name in ("utilised", "closed", "travel")}
         reaction, closing = arrays["reaction"], arrays["closing"]
         # summed as `bound` does, so that the excerpt has the bits of the whole model

@@ -20,23 +20,7 @@ COARSE = 1e-6
 
 
 class SweepingStepper:
-    """Steps the full system by Gauss-Seidel; bonds do not break and gaps are not watched.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    law : AnyLaw
-        Of the bonds.
-    dt : float
-        Step [s].
-    state : CondensedState
-        To go on from; is changed.
-    tolerance : float
-        Relative change in a sweep that ends a step.
-    most_sweeps : int
-        In a step.
-    """
+    """Steps the full system by Gauss-Seidel, `dt` in s; bonds do not break and gaps are not watched."""
 
     def __init__(
         self,
@@ -67,18 +51,7 @@ class SweepingStepper:
         return self._bonds.visits
 
     def advance(self, driven_velocity: float) -> float:
-        """One step.
-
-        Parameters
-        ----------
-        driven_velocity : float
-            Of the driven degree of freedom [m/s].
-
-        Returns
-        -------
-        float
-            The driving force [N].
-        """
+        """Driving force [N] in one step at this velocity of the driven degree of freedom [m/s]."""
         system, state, dt = self.system, self.state, self.dt
         explicit = self.law.explicit_part(state.sigma, state.kelvin)
         reaction = system.weight * state.sigma

@@ -17,19 +17,9 @@ MOST_STARTS = 3  # again from what was found: rounding within one start may leav
 
 
 def static_factor(system: BondedSystem, modulus: complex | np.ndarray = 1.0) -> SuperLU | Multigrid:
-    """What solves K on the free degrees of freedom: for all frequencies and moduli.
+    """What solves K on the free degrees of freedom for all frequencies and moduli.
 
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    modulus : complex or ndarray (3 b,)
-        With one for each component of the bonds: for these alone.
-
-    Returns
-    -------
-    SuperLU or Multigrid
-        With `.solve`.
+    With a `modulus` (3 b,) for each component of the bonds, for these alone.
     """
     # real, as factors are: of each bond the size of its modulus; losses are left to the iteration
     free, size = system.free, np.abs(modulus) / abs(np.mean(modulus))
@@ -43,28 +33,12 @@ def driving_force(
     acceleration_factor: complex | None = None,
     static: SuperLU | Multigrid | None = None,
 ) -> complex:
-    """Complex force per unit driven amplitude.
+    """Complex force per unit driven amplitude [N/m] at `omega` [rad/s].
 
-    Solves (G^T E* w G - omega^2 M) u = 0 with the driven degree of freedom at one, without damping other than
-    that of the complex modulus.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    modulus : complex or ndarray (3 b,)
-        E* [Pa], one for all bonds or one for each of their components.
-    omega : float
-        Angular frequency [rad/s].
-    acceleration_factor : complex, optional
-        Replaces -omega^2, e.g. by that of a time-stepping scheme.
-    static : SuperLU or Multigrid, optional
-        The `static_factor` of these moduli, where it is known already.
-
-    Returns
-    -------
-    complex
-        [N/m].
+    Solves (G^T E* w G - omega^2 M) u = 0 with the driven degree of freedom at one, without damping other than that of
+    the complex modulus E* [Pa], one for all bonds or for each of their components (3 b,). `acceleration_factor`
+    replaces -omega^2, e.g. by that of a time-stepping scheme; `static` is the `static_factor` of these moduli, where it
+    is known already.
     """
     factor = -(omega**2) if acceleration_factor is None else acceleration_factor
     static = static_factor(system, modulus) if static is None else static
@@ -112,22 +86,9 @@ def _follow(
 
 
 def actuator_stiffness(head: complex, devices: HeadDevices, omega: float) -> complex:
-    """Complex force per amplitude of the actuator. The slider is left out: its force does not grow with the
-    motion.
+    """Complex force per amplitude of the actuator [N/m], with the complex stiffness `head` [N/m] of the specimen.
 
-    Parameters
-    ----------
-    head : complex
-        Complex stiffness at the head of the specimen [N/m].
-    devices : HeadDevices
-        At the head.
-    omega : float
-        Angular frequency [rad/s].
-
-    Returns
-    -------
-    complex
-        [N/m].
+    The slider is left out: its force does not grow with the motion.
     """
     clamp, spring, _, mass = devices.of_head
     return 1.0 / (clamp + 1.0 / (head + spring - mass * omega**2))

@@ -16,19 +16,7 @@ Stepper = CondensedStepper | ReducedStepper
 
 
 class March:
-    """Steps from rest by any scheme, with the energy account.
-
-    Parameters
-    ----------
-    stepper : Stepper
-        Full or reduced, of step length dt / scheme.a.
-    scheme : Scheme
-        Coefficients of the rate.
-    law : AnyLaw
-        Of the bonds.
-    dt : float
-        [s].
-    """
+    """Steps from rest by any scheme, with the energy account; the stepper's step length is dt / scheme.a [s]."""
 
     def __init__(self, stepper: Stepper, scheme: Scheme, law: AnyLaw, dt: float) -> None:
         self.stepper, self.scheme, self.dt = stepper, scheme, dt
@@ -36,22 +24,9 @@ class March:
         self.account = EnergyAccount(law)
 
     def move_to(self, actuator: float) -> float:
-        """One step. Where the reduced stepper cannot make it, it is left in the state before it.
+        """Force [N] of the actuator in one step, which ends with it at `actuator` [m].
 
-        Parameters
-        ----------
-        actuator : float
-            Where it stands at the end [m].
-
-        Returns
-        -------
-        float
-            Its force [N].
-
-        Raises
-        ------
-        FullSystemNeeded
-            Where the reduced stepper cannot make it.
+        Where the reduced stepper cannot make it, FullSystemNeeded is raised and it is left in the state before.
         """
         stepper = self.stepper
         base = self.now.beyond(self.earlier, self.scheme.b / self.scheme.a)
@@ -70,13 +45,7 @@ class March:
         return force
 
     def go_on_with(self, full: CondensedStepper) -> None:
-        """Replace the reduced stepper by one of the full system.
-
-        Parameters
-        ----------
-        full : CondensedStepper
-            With the same bonds broken.
-        """
+        """Replace the reduced stepper by `full`, one of the full system with the same bonds broken."""
         reduced = self.stepper
         assert isinstance(reduced, ReducedStepper), "the full system has nothing beyond it"
 
@@ -97,13 +66,7 @@ class March:
         return found | {"energies": np.array([float(value) for value in astuple(self.account.sums)])}
 
     def put(self, arrays: dict[str, np.ndarray]) -> None:
-        """Go on where another one stood; `stepper` is that of the time.
-
-        Parameters
-        ----------
-        arrays : dict of str to ndarray
-            That it gave.
-        """
+        """Go on where the March that gave `arrays` stood; `stepper` is that of the time."""
         for when in ("now", "earlier"):
             values = {name: arrays[f"{when}/{name}"] for name in VARIABLES}
             setattr(self, when, History(values, arrays[f"{when}/actuator"].item()))

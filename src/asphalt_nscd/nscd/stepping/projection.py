@@ -17,29 +17,12 @@ from asphalt_nscd.nscd.bonds.system import BondedSystem
 
 @dataclass(frozen=True)
 class Projection:
-    """Column 0 of Phi (d, k) moves the driven degree of freedom by one, the others leave it.
+    """Small matrices of a system on Phi (d, k), whose column 0 alone moves the driven degree of freedom, by one.
 
-    Some bonds can still be removed: the factor then has a column for each of their components, the reaction
-    of which the last terms of (a, s, 1, reaction) take away.
-
-    Parameters
-    ----------
-    mass : ndarray (k, k)
-        [kg].
-    stiffness : ndarray (k, k)
-        [m].
-    load : ndarray (k,)
-        [N].
-    residual_factor : ndarray (., 2 k + 1 + 3 n)
-        Upper triangular.
-    opening : ndarray (3 n, k)
-        G Phi of the removable bonds.
-    weight : ndarray (3 n,)
-        Of the removable bonds [m].
-    head_norm : float
-        Of what one unit of s_0 asks of the driven degree of freedom alone.
-    load_norm : float
-        Of f.
+    `mass` in kg, `stiffness` in m, `load` (k,) in N; `residual_factor` (., 2 k + 1 + 3 n) is upper triangular, with a
+    column for each component of n removable bonds, whose reaction the last terms of (a, s, 1, reaction) take away;
+    `opening` (3 n, k) is their G Phi, `weight` (3 n,) [m] their w. `head_norm` is of what one unit of s_0 asks of the
+    driven degree of freedom alone, `load_norm` of f.
     """
 
     mass: np.ndarray
@@ -55,24 +38,7 @@ class Projection:
     def of(
         cls, system: BondedSystem, basis: np.ndarray, broken: Sequence[int], removable: Sequence[int] = ()
     ) -> Projection:
-        """Project a system.
-
-        Parameters
-        ----------
-        system : BondedSystem
-            Bonds and masses.
-        basis : ndarray (d, k)
-            Phi.
-        broken : sequence of int
-            Bonds that are gone.
-        removable : sequence of int (n,)
-            Bonds that are there, and can be removed.
-
-        Returns
-        -------
-        Projection
-            Small matrices.
-        """
+        """Project a system without `broken` bonds on Phi = `basis` (d, k); `removable` ones (n,) may go later."""
         free, operator = system.free, system.operator
         weight = system.weight.copy()
         weight[rows_of(broken)] = 0.0
@@ -101,20 +67,7 @@ class Projection:
         )
 
     def combined(self, mixing: np.ndarray, removed: np.ndarray) -> Projection:
-        """The projection on Phi `mixing` without some of the removable bonds.
-
-        Parameters
-        ----------
-        mixing : ndarray (k, j)
-            Columns.
-        removed : ndarray of int
-            Places among the removable bonds.
-
-        Returns
-        -------
-        Projection
-            On j columns.
-        """
+        """The projection on Phi `mixing` (k, j) without the removable bonds at places `removed`."""
         rows = rows_of(removed)
         opening = self.opening[rows]
         reaction = self.weight[rows, None] * opening
@@ -134,16 +87,5 @@ class Projection:
 
 
 def rows_of(bonds: Sequence[int] | np.ndarray) -> np.ndarray:
-    """Rows of G that belong to bonds.
-
-    Parameters
-    ----------
-    bonds : sequence of int (n,)
-        Which.
-
-    Returns
-    -------
-    ndarray of int (3 n,)
-        Three each.
-    """
+    """Rows (3 n,) of G that belong to bonds (n,), three each."""
     return (3 * np.asarray(bonds, int)[:, None] + np.arange(3)).ravel()

@@ -21,21 +21,9 @@ from asphalt_nscd.nscd.stepping.reduced_run import (
 
 @compiled
 def take_steps(run):
-    """Steps until the end or the first violation. State arrays change in place, step by step.
+    """Step until the end or the first violation: steps taken, code of their end, which of the watched bonds.
 
-    Parameters
-    ----------
-    run : ReducedRun
-        `trial` receives v+, s+, q+ of the refused step.
-
-    Returns
-    -------
-    int
-        Steps taken.
-    int
-        Code of their end.
-    int
-        Which of the watched bonds.
+    State arrays change in place, step by step; `run.trial` receives v+, s+, q+ of the refused step.
     """
     q, v, s, kelvin, dt, force, maxima = run.q, run.v, run.s, run.kelvin, run.dt, run.force, run.maxima
     k = q.shape[0]

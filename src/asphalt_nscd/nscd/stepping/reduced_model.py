@@ -28,18 +28,7 @@ SHIFT = 1e-2
 
 
 def shifted_factor(system: BondedSystem) -> SuperLU | Multigrid:
-    """What solves K + SHIFT M on the free degrees of freedom.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-
-    Returns
-    -------
-    SuperLU or Multigrid
-        With `.solve`.
-    """
+    """What solves K + SHIFT M on the free degrees of freedom."""
     free = system.free
     matrix = (system.stiffness() + SHIFT * sparse.diags_array(system.mass)).tocsc()[free][:, free]
     return factorise(matrix, system)
@@ -48,29 +37,11 @@ def shifted_factor(system: BondedSystem) -> SuperLU | Multigrid:
 def ritz_basis(
     system: BondedSystem, iterations: int, shifted: SuperLU | Multigrid | None = None
 ) -> np.ndarray:
-    """Phi: the static response to the driven motion, then Krylov vectors.
+    """Phi (d, 2 + 2 iterations): the static response to the driven motion, then Krylov vectors.
 
-    Column 0 has unit motion of the driven degree of freedom; the others leave it at rest. They come from the
-    inertia of column 0 and from the constant load by repeated (K + SHIFT M)^-1 M.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    iterations : int
-        Two vectors each.
-    shifted : SuperLU or Multigrid, optional
-        What solves K + SHIFT M, where it stands already.
-
-    Returns
-    -------
-    ndarray
-        (d, 2 + 2 iterations)
-
-    Raises
-    ------
-    ArithmeticError
-        Where some body is not held by its bonds.
+    Column 0 has unit motion of the driven degree of freedom; the others leave it at rest. They come from the inertia of
+    column 0 and from the constant load by repeated (K + SHIFT M)^-1 M, which `shifted` solves where it stands already.
+    ArithmeticError where some body is not held by its bonds.
     """
     free, k = system.free, system.stiffness()
     mass = system.mass[free]
@@ -108,15 +79,7 @@ def ritz_basis(
 
 
 class Columns:
-    """A basis that grows by columns orthonormal in the stiffness of the unbroken system.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    basis : ndarray (d, k)
-        Column 0 moves the driven degree of freedom, the others are orthonormal.
-    """
+    """A basis (d, k) that grows by columns orthonormal in the stiffness of the unbroken system."""
 
     def __init__(self, system: BondedSystem, basis: np.ndarray) -> None:
         """basis (d, k): column 0 moves the driven degree of freedom, the others are orthonormal."""
@@ -133,38 +96,17 @@ class Columns:
         return np.asarray(self._root * (self._system.operator @ motion))
 
     def append(self, extra: np.ndarray) -> np.ndarray:
-        """Take in what is new.
-
-        Parameters
-        ----------
-        extra : ndarray (d, m)
-            Directions.
-
-        Returns
-        -------
-        ndarray
-            (d, n) The columns it becomes.
-        """
+        """Take in what is new of directions (d, m), and give the columns (d, n) that it becomes."""
         new = self.new_in(extra)
         self._parts.append(new)
         self._stretched.append(self._stretch(new))
         return new
 
     def new_in(self, extra: np.ndarray) -> np.ndarray:
-        """The part that the basis lacks.
+        """Part of directions `extra` (d, m) that the basis lacks, as orthonormal columns (d, n), n <= m.
 
-        Directions of which no more than the part DEPENDENT is new are left out: normalised, they would be
-        rounding errors, and the projection would lose its condition.
-
-        Parameters
-        ----------
-        extra : ndarray (d, m)
-            Directions.
-
-        Returns
-        -------
-        ndarray
-            (d, n) Orthonormal columns, n <= m.
+        Directions of which no more than the part DEPENDENT is new are left out: normalised, they would be rounding
+        errors, and the projection would lose its condition.
         """
         # a system without load brings a column of zeros, which has no length to divide by
         extra = extra[:, extra.any(axis=0)]
@@ -193,22 +135,7 @@ class Columns:
 
 
 def append_columns(system: BondedSystem, basis: np.ndarray, extra: np.ndarray) -> np.ndarray:
-    """A basis with what some directions add to it; see `Columns`.
-
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    basis : ndarray (d, k)
-        Its other columns are orthonormal.
-    extra : ndarray (d, m)
-        Directions.
-
-    Returns
-    -------
-    ndarray
-        (d, k + n) All columns.
-    """
+    """`basis` (d, k) with what directions `extra` (d, m) add to it (d, k + n); see `Columns`."""
     columns = Columns(system, basis)
     columns.append(extra)
     return columns.basis
@@ -217,16 +144,8 @@ def append_columns(system: BondedSystem, basis: np.ndarray, extra: np.ndarray) -
 class ReducedModel:
     """A bonded system projected on a basis, with some bonds removed.
 
-    Parameters
-    ----------
-    system : BondedSystem
-        Bonds and masses.
-    basis : ndarray (d, k)
-        Column 0 moves the driven degree of freedom by one, the others leave it.
-    broken : sequence of int
-        Bonds that are removed.
-    projection : Projection or None
-        That of the system without `broken` on this basis, where it is known already.
+    Column 0 of `basis` (d, k) moves the driven degree of freedom by one, the others leave it. `projection` is that of
+    the system without `broken` on this basis, where it is known already.
     """
 
     def __init__(
@@ -262,66 +181,20 @@ class ReducedModel:
         return self.weight.reshape(-1, 3) / self.system.strength[:, None]
 
     def reaction_of(self, bonds: np.ndarray) -> np.ndarray:
-        """Reactions of some bonds.
-
-        Parameters
-        ----------
-        bonds : ndarray of int (n,)
-            Which.
-
-        Returns
-        -------
-        ndarray
-            (n, 3, k) Over their strength, per unit s.
-        """
+        """Reactions (n, 3, k) of bonds (n,) over their strength, per unit s."""
         return self._share_of_strength[bonds, :, None] * self.opening.reshape(-1, 3, self.load.size)[bonds]
 
     def closing_of(self, bonds: np.ndarray) -> np.ndarray:
-        """Closing of the gaps of some bonds.
-
-        Parameters
-        ----------
-        bonds : ndarray of int (n,)
-            Which.
-
-        Returns
-        -------
-        ndarray
-            (n, k) Share of their gaps, per unit q.
-        """
+        """Shares (n, k) of the gaps of bonds (n,) that close per unit q."""
         return -self.opening[3 * bonds] / self.system.gap[bonds, None]
 
     def residual_norm(self, force: np.ndarray) -> float:
-        """The norm that `residual_factor` gives, of any residual.
-
-        Parameters
-        ----------
-        force : ndarray (d,)
-            Residual of the full equations.
-
-        Returns
-        -------
-        float
-            Norm, each row over the root of its stiffness.
-        """
+        """Norm of a residual `force` (d,) of the full equations, each row over the root of its stiffness."""
         free = self.system.free
         return float(np.linalg.norm(force[free] / np.sqrt(self.system.stiffness_diagonal[free])))
 
     def with_basis(self, basis: np.ndarray, broken: Sequence[int]) -> ReducedModel:
-        """The same system on another basis.
-
-        Parameters
-        ----------
-        basis : ndarray (d, k)
-            Column 0 moves the driven degree of freedom by one, the others leave it.
-        broken : sequence of int
-            Bonds that are removed.
-
-        Returns
-        -------
-        ReducedModel
-            Projected anew.
-        """
+        """The same system projected anew on another `basis` (d, k), with bonds `broken` removed."""
         return ReducedModel(self.system, basis, broken)
 
 

@@ -74,17 +74,9 @@ class Certificate:
 
 
 class FullSystemNeeded(Exception):
-    """The step after those returned is one for the full system: a gap closes, or the model has outgrown its use
-    after many bonds have broken.
+    """The next step is one for the full system: a gap closes, or the model has outgrown its use after breaks.
 
-    Parameters
-    ----------
-    reason : str
-        What the message says.
-    force : ndarray (n,)
-        Of the actuator in the steps accepted [N].
-    velocity : ndarray (n, k)
-        Coordinates in the steps accepted.
+    Of the steps accepted, `force` (n,) is that of the actuator [N], `velocity` (n, k) the coordinates.
     """
 
     def __init__(self, reason: str, force: np.ndarray, velocity: np.ndarray) -> None:
@@ -93,29 +85,11 @@ class FullSystemNeeded(Exception):
 
 
 class ReducedStepper:
-    """Steps a reduced model at constant dt and law; `state` starts at rest.
+    """Steps a reduced model, or an excerpt, at constant dt [s] and law; `state` starts at rest.
 
-    Parameters
-    ----------
-    model : ReducedModel or Excerpt
-        Reduced, or an excerpt of it.
-    law : BondLaw
-        Of the bonds.
-    dt : float
-        Step [s].
-    tolerance : float
-        Of the residual of the full equations, relative.
-    most_enrichments : int
-        Of the basis, in a run.
-    devices : HeadDevices
-        At the head.
-    stand_by : StandBy or None
-        Directions for breaks, on the basis of `model`; an excerpt brings its own.
-
-    Raises
-    ------
-    TypeError
-        For bonds of several laws.
+    `tolerance` is relative, of the residual of the full equations; `most_enrichments` bounds those of the basis in a
+    run; `stand_by` holds directions for breaks on the basis of `model`; an excerpt brings its own. TypeError for bonds
+    of several laws.
     """
 
     def __init__(
@@ -166,24 +140,9 @@ class ReducedStepper:
             return question(self.model)
 
     def run(self, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Follow the actuator, one displacement per step.
+        """Force of the actuator (n,) [N] that follows `driven` (n,) [m], one a step; FullSystemNeeded if it cannot.
 
-        Parameters
-        ----------
-        driven : ndarray (n,)
-            Its displacements [m].
-
-        Returns
-        -------
-        ndarray (n,)
-            Its force [N].
-        ndarray (n, k)
-            Velocity coordinates of the basis as it was at the call.
-
-        Raises
-        ------
-        FullSystemNeeded
-            With what was accepted, where it cannot go on.
+        With velocity coordinates (n, k) of the basis as it was at the call.
         """
         force, velocity = np.empty(driven.size), np.zeros((driven.size, self._part.size))
         done = 0
@@ -205,18 +164,7 @@ class ReducedStepper:
             self._enrich(code)
 
     def move(self, start: float, end: float) -> float:
-        """One step, given by the places of the actuator.
-
-        Parameters
-        ----------
-        start, end : float
-            Where it stands before and after [m].
-
-        Returns
-        -------
-        float
-            Its force [N].
-        """
+        """Force of the actuator [N] in one step, in which it moves from `start` to `end` [m]."""
         return float(self.run(np.array([end]))[0][0])
 
     def full_state(self) -> CondensedState:
@@ -243,13 +191,7 @@ class ReducedStepper:
         return {name: np.asarray(value) for name, value in found.items()}
 
     def put(self, arrays: dict[str, np.ndarray]) -> None:
-        """Make a new stepper what another one was.
-
-        Parameters
-        ----------
-        arrays : dict of str to ndarray
-            That the other one gave.
-        """
+        """Make a new stepper what the one that gave `arrays` was."""
         from asphalt_nscd.nscd.stepping.projection import Projection
         from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
 
@@ -271,18 +213,7 @@ class ReducedStepper:
         self._look_at()
 
     def certify(self, full: CondensedStepper) -> None:
-        """Count the last step of the full system in the certificate.
-
-        Parameters
-        ----------
-        full : CondensedStepper
-            Which went on from `full_state`.
-
-        Raises
-        ------
-        ArithmeticError
-            Where that step misses its equations.
-        """
+        """Count the last step of the full system in the certificate; ArithmeticError where it misses its equations."""
         from asphalt_nscd.nscd.stepping.condensed import CLOSED
 
         model, system = self.model, self.model.system

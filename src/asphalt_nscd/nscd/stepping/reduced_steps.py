@@ -14,22 +14,9 @@ from asphalt_nscd.nscd.stepping.reduced_run import ReducedRun
 
 
 def advance_reduced(run: ReducedRun) -> tuple[int, int, int]:
-    """`reduced_kernel.take_steps` on this run.
+    """Call `reduced_kernel.take_steps` on this run: steps taken, the code of their end, which bond yields.
 
-    Parameters
-    ----------
-    run : ReducedRun
-        Its arrays are contiguous doubles; the last nine change in place.
-
-    Returns
-    -------
-    tuple of int
-        Steps taken, the code of their end, and which of the watched bonds yields.
-
-    Raises
-    ------
-    TypeError
-        An array is not of contiguous doubles.
+    Its arrays must be contiguous doubles, else TypeError; those from `reached_sigma` on change in place.
     """
     sizes = [run.driven.size, run.q.size, run.kelvin_recall.size, *run.residual_factor.shape]
     sizes += [len(run.reaction), len(run.closing), run.velocity.shape[1]]

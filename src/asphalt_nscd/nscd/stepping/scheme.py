@@ -28,33 +28,14 @@ VARIABLES = ("displacement", "velocity", "sigma", "kelvin")
 
 @dataclass(frozen=True)
 class Scheme:
-    """Coefficients of the rate, y' = [a (y+ - y) - b (y - y-)] / dt.
-
-    Parameters
-    ----------
-    a, b : float
-        Dimensionless.
-    """
+    """Dimensionless coefficients of the rate, y' = [a (y+ - y) - b (y - y-)] / dt."""
 
     a: float = 1.0
     b: float = 0.0
 
     @classmethod
     def named(cls, name: str, angle: float) -> Scheme:
-        """A scheme by its name.
-
-        Parameters
-        ----------
-        name : str
-            One of SCHEMES.
-        angle : float
-            omega dt [rad], below pi/2, to which "fitted" is fitted; 0 gives BDF2.
-
-        Returns
-        -------
-        Scheme
-            Its coefficients.
-        """
+        """A scheme of SCHEMES; "fitted" is fitted to `angle` omega dt [rad], below pi/2, 0 giving BDF2."""
         if name == "euler":
             return cls()
         # x / sin(2 x) by sinc, which has no 0/0 at an angle of zero, where this is BDF2
@@ -62,80 +43,31 @@ class Scheme:
         return cls(b * (1.0 + 2.0 * float(np.cos(angle))), b)
 
     def rate(self, angle: float) -> complex:
-        """i omega dt as the scheme sees it, for an oscillation.
-
-        Parameters
-        ----------
-        angle : float
-            omega dt [rad].
-
-        Returns
-        -------
-        complex
-            Dimensionless.
-        """
+        """i omega dt as the scheme sees it, for an oscillation of `angle` omega dt [rad]."""
         back = np.exp(-1j * angle)
         return complex((1.0 - back) * (self.a - self.b * back))
 
 
 @dataclass
 class History:
-    """The variables of a state and the actuator's place at one instant.
-
-    Parameters
-    ----------
-    values : dict of str to ndarray
-        By the names in VARIABLES.
-    actuator : float
-        [m].
-    """
+    """The variables of a state, by the names in VARIABLES, and the actuator's place [m] at one instant."""
 
     values: dict[str, np.ndarray]
     actuator: float
 
     @classmethod
     def of(cls, state: Any, actuator: float) -> History:
-        """A copy of the present.
-
-        Parameters
-        ----------
-        state : CondensedState or reduced state
-            Whose variables.
-        actuator : float
-            Its place [m].
-
-        Returns
-        -------
-        History
-            The copy.
-        """
+        """A copy of the present of a state, with the actuator's place [m]."""
         # copies, for the compiled kernel changes the arrays of a state in place
         return cls({name: getattr(state, name).copy() for name in VARIABLES}, actuator)
 
     def put(self, state: Any) -> None:
-        """Make it the present of a state.
-
-        Parameters
-        ----------
-        state : CondensedState or reduced state
-            Is changed.
-        """
+        """Make it the present of a state."""
         for name, value in self.values.items():
             setattr(state, name, value.copy())
 
     def widened(self, state: Any) -> History:
-        """With zeros for the coordinates that a state has got since.
-
-        Parameters
-        ----------
-        state : CondensedState or reduced state
-            Of as many coordinates or more.
-
-        Returns
-        -------
-        History
-            Itself, or wider.
-        """
+        """Itself, or wider, with zeros for the coordinates that a state has got since."""
         if self.values["sigma"].size == state.sigma.size:
             return self
         more = state.sigma.size - self.values["sigma"].size
@@ -143,19 +75,6 @@ class History:
         return History(padded, self.actuator)
 
     def beyond(self, earlier: History, share: float) -> History:
-        """Extrapolated.
-
-        Parameters
-        ----------
-        earlier : History
-            The variables before.
-        share : float
-            Of the change since then.
-
-        Returns
-        -------
-        History
-            This plus `share` times the change.
-        """
+        """Extrapolated: this plus `share` times the change since `earlier`."""
         values = {n: v + share * (v - earlier.values[n]) for n, v in self.values.items()}
         return History(values, self.actuator + share * (self.actuator - earlier.actuator))

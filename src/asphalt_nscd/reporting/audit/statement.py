@@ -25,24 +25,10 @@ NEEDS = ("text", "particles", "measurements")
 
 @dataclass(frozen=True)
 class Judgement:
-    """What we find of one statement of statements.csv; values are words or numbers with the unit in `unit`.
+    """What we find of one statement of statements.csv.
 
-    Parameters
-    ----------
-    id : str
-        Of the statement.
-    published : str or float
-        By the paper.
-    ours : str or float
-        Found here.
-    unit : str
-        Of both.
-    verdict : str
-        REPRODUCED, DIFFERS or another one of these.
-    evidence : str
-        For the verdict.
-    otherwise : str
-        What would have changed the verdict.
+    `published` by the paper and `ours` found here are words, or numbers in `unit`; `verdict` is REPRODUCED, DIFFERS or
+    another of these constants; `otherwise` says what would have changed the verdict.
     """
 
     id: str
@@ -63,91 +49,28 @@ def compared(
     evidence: str,
     agrees: str = REPRODUCED,
 ) -> Judgement:
-    """A number against a number: they agree within the relative tolerance, or they differ.
-
-    Parameters
-    ----------
-    id : str
-        Of the statement.
-    published : float
-        By the paper.
-    ours : float
-        Found here.
-    unit : str
-        Of both.
-    tolerance : float
-        Relative.
-    evidence : str
-        For the verdict.
-    agrees : str
-        Verdict where they agree.
-
-    Returns
-    -------
-    Judgement
-        With the verdict.
-    """
+    """Judge a published number by ours: verdict `agrees` within the relative `tolerance`, else they differ."""
     close = abs(ours - published) <= tolerance * abs(published)
     otherwise = f"A number {'beyond' if close else 'within'} {100.0 * tolerance:g} % of the paper's."
     return Judgement(id, published, ours, unit, agrees if close else DIFFERS, evidence, otherwise)
 
 
 def spanned(values: Sequence[float] | NDArray[np.float64], form: str) -> str:
-    """The range of values; one number where both ends read alike.
-
-    Parameters
-    ----------
-    values : sequence of float or ndarray
-        At least one.
-    form : str
-        Of each end, as `format` takes it.
-
-    Returns
-    -------
-    str
-        In words.
-    """
+    """The range of values in words, each end by the format `form`; one number where both ends read alike."""
     low, high = f"{min(values):{form}}", f"{max(values):{form}}"
     return low if low == high else f"{low} to {high}"
 
 
 def judged(holds: bool, agrees: str = REPRODUCED) -> str:
-    """Verdict on a statement that either holds or does not.
-
-    Parameters
-    ----------
-    holds : bool
-        Whether it does.
-    agrees : str
-        Verdict where it does.
-
-    Returns
-    -------
-    str
-        A verdict.
-    """
+    """Verdict on a statement that either holds (then `agrees`) or does not."""
     return agrees if holds else DIFFERS
 
 
 def told(statements: str | Path, judgements: Iterable[Judgement]) -> pd.DataFrame:
     """All statements in the order of the paper, each with its judgement or the reason why there is none.
 
-    Parameters
-    ----------
-    statements : path
-        CSV with id, where, statement, needs (one of NEEDS), not_judged (a reason, or nothing).
-    judgements : iterable of Judgement
-        Of them.
-
-    Returns
-    -------
-    DataFrame
-        One row for each statement.
-
-    Raises
-    ------
-    InputError
-        For a judgement without a statement, or the other way round.
+    `statements` is a CSV with id, where, statement, needs (one of NEEDS), not_judged (a reason, or nothing). Raises
+    InputError for a judgement without a statement, or the other way round.
     """
     listed = pd.read_csv(statements, keep_default_na=False)
     made = list(judgements)

@@ -25,18 +25,7 @@ ARROW = {"arrowstyle": "<->", "lw": 0.5, "shrinkA": 0.0, "shrinkB": 0.0, "mutati
 
 @style.journal
 def draw(study: list[Path]) -> Figure:
-    """(a) dimensions, (b) scheme of the test, of the simulated specimen of a study.
-
-    Parameters
-    ----------
-    study : list of path
-        Configuration of the study.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw (a) the dimensions and (b) the scheme of the test of a study's simulated specimen."""
     content = read_json(the_only(study, "study"))
     geometry = read_shape(content["specimens"]["geometry"])
     figure, (left, right) = style.new_figure(

@@ -18,18 +18,7 @@ PUSH = 1.0  # approach of the two bodies without a reaction, in the unit of the 
 
 @style.journal
 def draw(study: list[Path]) -> Figure:
-    """(a) normal, (b) tangential; points are reactions to free velocities, for bodies of unit mass.
-
-    Parameters
-    ----------
-    study : list of path
-        Configuration of the study.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw the contact law, (a) normal and (b) tangential: reactions to free velocities, for bodies of unit mass."""
     friction = float(read_json(the_only(study, "study"))["specimens"]["bonds"]["friction"])
     figure, (left, right) = style.new_figure(style.WIDE, 56.0, columns=2)
     free = np.linspace(-PUSH, PUSH, 17)

@@ -23,22 +23,7 @@ HALF = 0.42  # of the distance between the branches of the Kelvin element
 
 @style.journal
 def draw(laws: list[Path], specimen: list[Path], study: list[Path]) -> Figure:
-    """(a) normal, (b) tangential components of the bond with the median area of a specimen.
-
-    Parameters
-    ----------
-    laws : list of path
-        Laws of the bonds, one file for each temperature.
-    specimen : list of path
-        HDF5 file of a specimen; the first is drawn.
-    study : list of path
-        Configuration of the study.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw (a) normal and (b) tangential components of the bond with the median area of a specimen."""
     path = the_only(laws, "laws")
     law, temperature = read_law(path), read_json(path)["temperature_C"]
     form = float(np.median(read_specimen(the_only(specimen, "specimen")).network.form))

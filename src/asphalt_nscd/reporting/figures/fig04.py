@@ -21,20 +21,7 @@ STEPS = 600
 
 @style.journal
 def draw(laws: list[Path], study: list[Path]) -> Figure:
-    """(a) normal and (b) tangential reaction per area of the bond against its opening over l0, at three rates.
-
-    Parameters
-    ----------
-    laws : list of path
-        Laws of the bonds, one file for each temperature.
-    study : list of path
-        Configuration of the study.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw (a) normal and (b) tangential reaction per area of a bond against its opening over l0, at three rates."""
     path = the_only(laws, "laws")
     law, temperature = bond_law(read_law(path)), read_json(path)["temperature_C"]
     bonds = read_json(the_only(study, "study"))["specimens"]["bonds"]

@@ -28,20 +28,7 @@ VIEW = View(azimuth=-18.0, elevation=12.0)
 
 @style.journal
 def draw(deposit: list[Path], specimen: list[Path]) -> Figure:
-    """(a) lattice, (b) poured, (c) vibrated, (d) specimen, (e) section of it with its bonds.
-
-    Parameters
-    ----------
-    deposit : list of path
-        HDF5 files of deposits.
-    specimen : list of path
-        HDF5 file of a specimen; the first is drawn.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw a sample (a) as lattice, (b) poured, (c) vibrated, (d) as specimen, (e) in section with its bonds."""
     poured = load(the_only(deposit, "deposit"), "deposit")
     cut = load(the_only(specimen, "specimen"), "specimen")
     # Shades go by the sizes poured, since those of the specimen were shrunk.

@@ -17,22 +17,10 @@ from asphalt_nscd.reporting.figures.records import last_cycle
 
 @style.journal
 def draw(solved: list[Path], part: list[Path], stopped: list[Path]) -> Figure:
-    """(a) Every step solved; (b) swept to the finest tolerance; (c) |E*| of all sweeps over that of the
-    solution.
+    """Draw force (a) with every step solved, (b) swept to the finest tolerance; (c) |E*| of sweeps over the solved one.
 
-    Parameters
-    ----------
-    solved : list of path
-        Tests of a sample, every step solved.
-    part : list of path
-        The same specimen, solved.
-    stopped : list of path
-        Tests of a smaller specimen, by Gauss-Seidel.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
+    `solved` are tests of a sample, every step solved; `stopped` are tests of a smaller specimen by Gauss-Seidel, and
+    `part` is the test of that specimen, solved.
     """
     true = load(the_only(part, "part"), "test")
     swept = [load(path, "test") for path in stopped]

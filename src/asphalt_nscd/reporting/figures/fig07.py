@@ -16,18 +16,7 @@ from asphalt_nscd.reporting.figures.records import last_cycle
 
 @style.journal
 def draw(test: list[Path]) -> Figure:
-    """Two panels over one time; the amplitudes and the lag are those of the harmonic fit.
-
-    Parameters
-    ----------
-    test : list of path
-        HDF5 file of a test.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw displacement and force over the last cycle of a test; amplitudes and lag are those of the harmonic fit."""
     record = load(the_only(test, "test"), "test")
     frequency = record.attributes["frequency_Hz"]
     time, displacement, force = last_cycle(record)

@@ -21,25 +21,10 @@ HEIGHTS = 5  # shown in (b)
 
 @style.journal
 def draw(test: list[Path], specimen: list[Path]) -> Figure:
-    """(a) velocity along the drive against height, beside the beam or bar behind its form factor; (b) against
-    time.
+    """Draw the mean velocity of the spheres along the drive (a) against height and (b) against time.
 
-    Parameters
-    ----------
-    test : list of path
-        HDF5 file of a test.
-    specimen : list of path
-        HDF5 file of a specimen; the first is drawn.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-
-    Raises
-    ------
-    InputError
-        For a test without velocities, as the harmonic method makes it.
+    Beside (a) stands the velocity of the beam or bar behind the form factor. A test by the harmonic method is refused,
+    because it holds no velocities.
     """
     path = the_only(test, "test")
     record = load(path, "test")

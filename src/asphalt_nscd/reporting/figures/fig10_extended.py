@@ -26,25 +26,10 @@ COLUMN = "phase_deg"
 def draw(
     simulations: list[Path], extended: list[Path], measured: list[Path], laws: list[Path], common: list[Path]
 ) -> Figure:
-    """(a) before, (b) after: simulated means and those they are held against, with standard deviations.
+    """Draw simulated means and those they are held against, with standard deviations, (a) before and (b) after.
 
-    Parameters
-    ----------
-    simulations : list of path
-        simulations.csv of the study.
-    extended : list of path
-        Table of the extended simulation.
-    measured : list of path
-        Reduced measurements.
-    laws : list of path
-        The Burgers laws of (a), one for each temperature.
-    common : list of path
-        The law of all temperatures in (b).
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
+    `simulations` is simulations.csv of the study and `extended` the table of the extended simulation; `laws` are the
+    Burgers laws of (a), one for each temperature, and `common` the law of all temperatures in (b).
     """
     burgers = {read_json(path)["temperature_C"]: read_law(path).complex_modulus for path in laws}
     spectrum = read_spectrum(the_only(common, "common"))

@@ -22,20 +22,7 @@ COLUMNS |= {when: (f"E_{when}_MPa", f"phase_{when}_deg") for when in LINES}
 
 @style.journal
 def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
-    """(a) |E*| against phase, (b) loss against storage modulus; points measured, lines simulated.
-
-    Parameters
-    ----------
-    residuals : list of path
-        residuals.csv.
-    diagnosis : list of path
-        diagnosis.json.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw (a) |E*| against phase, (b) loss against storage modulus; points are measured, lines simulated."""
     content = read_diagnosis(diagnosis)
     cells = conditions(read_residuals(residuals), content["scatter"])
     figure, (black, cole) = style.new_figure(style.SINGLE, 150.0, rows=2)

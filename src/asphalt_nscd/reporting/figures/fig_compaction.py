@@ -12,18 +12,7 @@ from asphalt_nscd.reporting.figures import style
 
 @style.journal
 def draw(deposit: list[Path]) -> Figure:
-    """One curve for each sample, from the poured layer to the vibrated one at rest.
-
-    Parameters
-    ----------
-    deposit : list of path
-        HDF5 files of deposits.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw one curve for each sample, from the poured layer to the vibrated one at rest."""
     figure, axes = style.new_figure(style.SINGLE, 60.0)
     for path, (colour, marker) in zip(deposit, style.series(len(deposit)), strict=True):
         course = load(path, "deposit").arrays

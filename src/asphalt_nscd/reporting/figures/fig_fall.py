@@ -26,18 +26,7 @@ PARTS = {  # of the account, and how they are drawn
 
 @style.journal
 def draw(fall: list[Path]) -> Figure:
-    """(a)-(d) The pieces from the side; (e) shares of the energy that the fall has set free at its end.
-
-    Parameters
-    ----------
-    fall : list of path
-        HDF5 files of falls.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw (a)-(d) the pieces from the side, (e) shares of the energy that the fall has set free at its end."""
     arrays = load(the_only(fall, "fall"), "fall").arrays
     time, radius = arrays["time_s"], arrays["frames/radius_m"]
     figure, axes = style.new_figure(style.WIDE, 62.0, columns=SHOWN + 1, width_ratios=(1.0,) * SHOWN + (1.3,))

@@ -14,19 +14,9 @@ from asphalt_nscd.reporting.tables import fatigue
 
 @style.journal
 def draw(course: list[Path], profile: list[Path]) -> Figure:
-    """One curve for each sample, at the strain epsilon6; lives of all at three strains.
+    """Draw stiffness of each sample over cycles at the strain epsilon6, lives at three strains, damage over height.
 
-    Parameters
-    ----------
-    course : list of path
-        Courses of fatigue, one file for each sample.
-    profile : list of path
-        Profiles of damage, one file for each sample.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
+    `course` and `profile` hold one file for each sample: the course of fatigue and the profile of damage.
     """
     figure, (falls, wohler, height) = style.new_figure(style.WIDE, 60.0, columns=3)
     lives, grows = fatigue.make(course), fatigue.factor(course)

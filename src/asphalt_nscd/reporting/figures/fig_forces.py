@@ -31,25 +31,7 @@ VIEW = View(azimuth=0.0, elevation=0.0)
 
 @style.journal
 def draw(model: list[Path], specimen: list[Path]) -> Figure:
-    """Bonds (a) in tension and (b) in compression as thick as their force, (c) velocity, (d) how forces spread.
-
-    Parameters
-    ----------
-    model : list of path
-        HDF5 file of a model.
-    specimen : list of path
-        HDF5 file of a specimen; the first is drawn.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-
-    Raises
-    ------
-    InputError
-        For a model of another specimen.
-    """
+    """Draw bonds (a) in tension, (b) in compression as thick as their force, (c) velocity, (d) how forces spread."""
     condensed, cut = load(the_only(model, "model"), "model"), load(the_only(specimen, "specimen"), "specimen")
     if condensed.attributes["name"] != Path(specimen[0]).stem:
         raise InputError(

@@ -22,18 +22,7 @@ NONE = "No cause of the catalogue could have shown in these data."
 
 @style.journal
 def draw(diagnosis: list[Path]) -> Figure:
-    """One panel for each cause, in its own unit; one bar for each place where it may sit.
-
-    Parameters
-    ----------
-    diagnosis : list of path
-        diagnosis.json.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw one panel for each cause, in its own unit, with one bar for each place where it may sit."""
     content = read_diagnosis(diagnosis)
     limits = content["detection_limits"]
     if not limits:

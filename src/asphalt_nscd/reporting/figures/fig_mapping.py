@@ -14,19 +14,9 @@ SHOWN = {"paper": "Eqs. (30)-(33)", "facets": "facets, $k_t = k_n$"}
 
 @style.journal
 def draw(mapping: list[Path]) -> Figure:
-    """One point for each packing and mapping.
+    """Draw one point for each packing and mapping, from the table of `benchmarks/mapping.py`.
 
-    Of the facets those with equal stiffnesses, which the package forms unless told otherwise.
-
-    Parameters
-    ----------
-    mapping : list of path
-        Table by `benchmarks/mapping.py`.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
+    Of the facets it shows those with equal stiffnesses, which the package forms unless told otherwise.
     """
     table = pd.concat([pd.read_csv(path) for path in mapping], ignore_index=True)
     table = table[(table["mapping"] == "paper") | (table["kt_over_kn"] == 1.0)]

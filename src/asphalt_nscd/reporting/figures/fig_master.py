@@ -25,20 +25,7 @@ RESIDUALS = {
 
 @style.journal
 def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
-    """(a) |E*|, (b) phase, (c, d) their residuals against reduced frequency, (e) shift factors.
-
-    Parameters
-    ----------
-    residuals : list of path
-        residuals.csv.
-    diagnosis : list of path
-        diagnosis.json.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw (a) |E*|, (b) phase, (c, d) their residuals against reduced frequency, and (e) shift factors."""
     content = read_diagnosis(diagnosis)
     rung = next((rung for rung in content["ladder"] if "log10_shift" in rung), None)
     if rung is None:

@@ -15,18 +15,7 @@ from asphalt_nscd.reporting.figures import style
 
 @style.journal
 def draw(packing: list[Path]) -> Figure:
-    """One point for each deposit, labelled with its coefficient of friction; open: with bonds that are facets.
-
-    Parameters
-    ----------
-    packing : list of path
-        packing.csv.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw one point for each deposit, labelled with its coefficient of friction; open where bonds are facets."""
     # Tables of a study without facets lack the column.
     both = all("mapping" in read_csv(path).columns for path in packing)
     tests = read_tests(packing, numbers=["friction", "solid_fraction"], texts=["mapping"] if both else [])

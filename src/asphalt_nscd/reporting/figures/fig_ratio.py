@@ -16,18 +16,7 @@ GROUP = 0.8  # width of a sample's group of points, of 1
 
 @style.journal
 def draw(simulations: list[Path]) -> Figure:
-    """(a) |E*| over that of the law, (b) phase minus that of the law; open markers where bonds broke.
-
-    Parameters
-    ----------
-    simulations : list of path
-        simulations.csv of the study.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw (a) |E*| over that of the law, (b) phase minus that of the law; open markers where bonds broke."""
     tests = read_tests(simulations, numbers=["broken_bonds"])
     tests["ratio"] = tests["E_MPa"] / tests["E_law_MPa"]
     tests["lead"] = tests["phase_deg"] - tests["phase_law_deg"]

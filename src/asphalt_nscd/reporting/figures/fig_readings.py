@@ -22,25 +22,7 @@ LOOKS = {
 
 @style.journal
 def draw(readings: list[Path], simulations: list[Path]) -> Figure:
-    """(a) |E*| over that of the law, (b) phase, with the phase of the law as a line.
-
-    Parameters
-    ----------
-    readings : list of path
-        Tests of the other readings.
-    simulations : list of path
-        simulations.csv of the study.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-
-    Raises
-    ------
-    InputError
-        Where no simulation is of the specimen of the readings.
-    """
+    """Draw (a) |E*| over that of the law, (b) phase, with the phase of the law as a line."""
     other = read_tests(readings, texts=["head", "law_source"])
     other["reading"] = "blocked"
     other.loc[other["law_source"] == "pascal", "reading"] = "pascal"

@@ -29,20 +29,7 @@ ROWS = {
 
 @style.journal
 def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
-    """One cell for each condition: |E*| above, phase below; each quantity has one scale for before and after.
-
-    Parameters
-    ----------
-    residuals : list of path
-        residuals.csv.
-    diagnosis : list of path
-        diagnosis.json.
-
-    Returns
-    -------
-    Figure
-        In the size of a journal column.
-    """
+    """Draw one cell for each condition: |E*| above, phase below; each quantity has one scale for before and after."""
     content = read_diagnosis(diagnosis)
     means = conditions(read_residuals(residuals), content["scatter"])
     figure, panels = style.new_figure(style.SINGLE, 112.0, rows=2, columns=2, sharex=True, sharey=True)

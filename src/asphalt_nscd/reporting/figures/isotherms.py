@@ -25,19 +25,7 @@ APART = 1.025  # factor on the frequency, so that measured and simulated points 
 
 
 def figure_of(column: str) -> Callable[..., Figure]:
-    """What draws one isotherm of a quantity for each simulated temperature: means over samples with standard
-    deviations, and the laws as lines.
-
-    Parameters
-    ----------
-    column : str
-        "E_MPa" or "phase_deg".
-
-    Returns
-    -------
-    callable
-        `draw` of a figure.
-    """
+    """The function that draws isotherms of `column`, "E_MPa" or "phase_deg": means over samples, laws as lines."""
 
     @style.journal
     def draw(simulations: list[Path], measured: list[Path], laws: list[Path]) -> Figure:
@@ -88,23 +76,7 @@ def figure_of(column: str) -> Callable[..., Figure]:
 def law_line(
     axes: Axes, column: str, law: Burgers, limits: tuple[float, float], colour: Any, **look: Any
 ) -> None:
-    """The law as a line between two frequencies.
-
-    Parameters
-    ----------
-    axes : Axes
-        To draw on.
-    column : str
-        "E_MPa" or "phase_deg".
-    law : Burgers
-        Of one temperature.
-    limits : tuple of float
-        Frequencies [Hz].
-    colour : colour
-        Of the line.
-    **look : object
-        Of the line, as Matplotlib takes it.
-    """
+    """Draw `column` ("E_MPa" or "phase_deg") of a law as a line between two frequencies [Hz]."""
     frequency = np.geomspace(*limits, 200)
     norm, phase = norm_and_phase(law.complex_modulus(2.0 * np.pi * frequency))
     values = {"E_MPa": norm / 1e6, "phase_deg": np.degrees(phase)}[column]
@@ -114,24 +86,10 @@ def law_line(
 def error_bars(
     axes: Axes, column: str, points: pd.DataFrame, shift: float, marker: str, colour: Any, filled: bool
 ) -> None:
-    """Means with standard deviations; the bars are left out where there is one value only.
+    """Draw means with standard deviations; the bars are left out where there is one value only.
 
-    Parameters
-    ----------
-    axes : Axes
-        To draw on.
-    column : str
-        "E_MPa" or "phase_deg".
-    points : DataFrame
-        Of `measurements.tables.averages`.
-    shift : float
-        Factor on the frequency, for points side by side.
-    marker : str
-        Of the points.
-    colour : colour
-        Of the points.
-    filled : bool
-        Whether the points are.
+    `column` is "E_MPa" or "phase_deg"; `points` come from `measurements.tables.averages`; `shift` is a factor on the
+    frequency, for points side by side.
     """
     spread = points[f"{column}_sd"] * SHOWN_PER_UNIT[column]
     axes.errorbar(

@@ -8,22 +8,7 @@ from asphalt_nscd.files.store import Record
 
 
 def last_cycle(record: Record) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The last whole cycle of a test.
-
-    Parameters
-    ----------
-    record : Record
-        Content of a test file.
-
-    Returns
-    -------
-    ndarray
-        Time from its start [s].
-    ndarray
-        Displacement [m].
-    ndarray
-        Force [N].
-    """
+    """The last whole cycle of a test: time from its start [s], displacement [m] and force [N]."""
     time, frequency = record.arrays["time_s"], record.attributes["frequency_Hz"]
     # A cycle that is no multiple of the time step may lack half a step at its end.
     step = time[0]

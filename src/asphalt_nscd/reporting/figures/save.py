@@ -20,35 +20,14 @@ PNG_DPI = 250
 
 
 def save_figure(figure: Figure, stem: str | Path) -> None:
-    """Write stem.pdf, stem.png and stem.svg, in the size that the figure was drawn in.
-
-    Parameters
-    ----------
-    figure : Figure
-        Of Matplotlib.
-    stem : path
-        Path without ending.
-    """
+    """Write stem.pdf, stem.png and stem.svg, in the size that the figure was drawn in."""
     for kind in _METADATA:
         with atomic_path(f"{stem}.{kind}") as path:
             path.write_bytes(as_bytes(figure, kind))
 
 
 def as_bytes(figure: Figure, kind: str) -> bytes:
-    """The figure as a file.
-
-    Parameters
-    ----------
-    figure : Figure
-        Of Matplotlib.
-    kind : str
-        "pdf", "png" or "svg".
-
-    Returns
-    -------
-    bytes
-        The same bytes whenever it is made.
-    """
+    """The figure as a "pdf", "png" or "svg" file: the same bytes whenever it is made."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()  # a user's matplotlibrc must not show
         matplotlib.rcParams.update(RC | {"svg.hashsalt": "asphalt-nscd"})

@@ -30,19 +30,9 @@ SYMBOLS = {"Em": r"$E_m$", "eta_m": r"$\eta_m$", "Ek": r"$E_k$", "eta_k": r"$\et
 
 
 def figure_of(parameter: str) -> Callable[..., Figure]:
-    """What draws |E*| (a) and phase (b) against frequency for each factor on a parameter, and unchanged.
+    """The function that draws |E*| (a) and phase (b) against frequency for each factor on a parameter, and unchanged.
 
-    The law of the temperature of the study says which base to take.
-
-    Parameters
-    ----------
-    parameter : str
-        "Em", "eta_m", "Ek" or "eta_k".
-
-    Returns
-    -------
-    callable
-        `draw` of a figure.
+    `parameter` is "Em", "eta_m", "Ek" or "eta_k". The law of the temperature of the study says which base to take.
     """
 
     @style.journal

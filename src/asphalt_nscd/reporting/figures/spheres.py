@@ -17,32 +17,16 @@ SURROUNDINGS = 1.5  # mean radii over which surroundings are averaged
 
 @dataclass(frozen=True)
 class View:
-    """Orthographic camera. Untilted it looks along +y: x is to the right and z up.
+    """Orthographic camera, turned about the vertical by `azimuth`, then raised by `elevation` [degrees].
 
-    Parameters
-    ----------
-    azimuth : float
-        Turned about the vertical [degrees].
-    elevation : float
-        Then raised [degrees].
+    Untilted it looks along +y: x is to the right and z up.
     """
 
     azimuth: float
     elevation: float
 
     def project(self, position: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Positions as the camera sees them.
-
-        Parameters
-        ----------
-        position : ndarray (n, 3)
-            [m].
-
-        Returns
-        -------
-        ndarray (n, 3)
-            Right, up and towards the viewer [m].
-        """
+        """Positions (n, 3) [m] as the camera sees them: right, up and towards the viewer [m]."""
         a, e = np.radians([self.azimuth, self.elevation])
         right = np.array([np.cos(a), np.sin(a), 0.0])
         ahead = np.array([-np.sin(a) * np.cos(e), np.cos(a) * np.cos(e), -np.sin(e)])
@@ -57,27 +41,10 @@ def picture(
     view: View,
     resolution: float,
 ) -> tuple[NDArray[np.float64], tuple[float, float, float, float]]:
-    """Shaded spheres.
+    """RGBA image (height, width, 4) of shaded spheres, and its extent in the view's plane [m].
 
-    Parameters
-    ----------
-    position : ndarray (n, 3)
-        [m].
-    radius : ndarray (n,)
-        [m].
-    colour : ndarray (n, 3)
-        0 to 1.
-    view : View
-        The camera.
-    resolution : float
-        Pixels per metre.
-
-    Returns
-    -------
-    ndarray (height, width, 4)
-        RGBA image.
-    tuple of float
-        Its extent (left, right, bottom, top) in the view's plane [m].
+    The extent is (left, right, bottom, top). `position` (n, 3) and `radius` (n,) in m; `colour` (n, 3) from 0 to 1;
+    `resolution` in pixels per metre.
     """
     scale = resolution * OVERSAMPLING
     seen = view.project(position)

@@ -60,18 +60,7 @@ MOST_LABELLED_FREQUENCIES = 8
 
 
 def journal(draw: Callable[..., Figure]) -> Callable[..., Figure]:
-    """Draw in this style, whatever the user's matplotlibrc says.
-
-    Parameters
-    ----------
-    draw : callable
-        Makes a figure.
-
-    Returns
-    -------
-    callable
-        The same in this style.
-    """
+    """The same function, drawing in this style, whatever the user's matplotlibrc says."""
 
     @wraps(draw)
     def styled(*arguments: Any, **data: Any) -> Figure:
@@ -103,58 +92,18 @@ class RepeatableLayout(ConstrainedLayoutEngine):
 def new_figure(
     width: float, height: float, rows: int = 1, columns: int = 1, **options: Any
 ) -> tuple[Figure, Any]:
-    """An empty figure.
-
-    Parameters
-    ----------
-    width, height : float
-        [mm].
-    rows, columns : int
-        Of axes.
-    **options : object
-        Of `Figure.subplots`.
-
-    Returns
-    -------
-    Figure
-        The figure.
-    object
-        Its axes.
-    """
+    """An empty figure and its axes; `width` and `height` in mm, `options` as `Figure.subplots` takes them."""
     figure = Figure(figsize=(width * MM, height * MM), layout=RepeatableLayout(w_pad=0.03, h_pad=0.03))
     return figure, figure.subplots(rows, columns, **options)
 
 
 def letter(axes: Axes, text: str, explanation: str = "", pad: float = 5.0) -> None:
-    """Panel letter above the axes, at its left, with a few words.
-
-    Parameters
-    ----------
-    axes : Axes
-        To write on.
-    text : str
-        The letter.
-    explanation : str
-        The words.
-    pad : float
-        Distance above [points].
-    """
+    """Write the panel letter above the axes, at its left, with a few words; `pad` is the distance above [points]."""
     axes.set_title(rf"$\bf{{{text}}}$  {explanation}".rstrip(), loc="left", fontsize=8.0, pad=pad)
 
 
 def series(count: int) -> list[tuple[Any, str]]:
-    """Looks of ordered series, dark to light.
-
-    Parameters
-    ----------
-    count : int
-        How many.
-
-    Returns
-    -------
-    list of tuple
-        Colour and marker of each.
-    """
+    """Colour and marker of each of `count` ordered series, dark to light."""
     # Not to its end, where it is a yellow that white paper swallows.
     shades = colormaps["plasma"](np.linspace(0.0, 0.76, max(count, 2)))[:count]
     return [(tuple(shade), MARKERS[n % len(MARKERS)]) for n, shade in enumerate(shades)]
@@ -175,15 +124,7 @@ def isotherm_legends(figure: Figure, keys: Sequence[Line2D], temperatures: Seque
 
 
 def frequency_axis(axes: Axes, frequencies: ArrayLike) -> None:
-    """Logarithmic frequency axis with the tested frequencies as ticks, where these are few.
-
-    Parameters
-    ----------
-    axes : Axes
-        Is changed.
-    frequencies : array_like
-        Tested [Hz].
-    """
+    """Make the frequency axis logarithmic, with the tested frequencies [Hz] as ticks where these are few."""
     tested = np.unique(np.asarray(frequencies, float))
     axes.set_xscale("log")
     axes.set_xlabel("frequency (Hz)")
@@ -206,21 +147,7 @@ def plain_log_axis(axis: Any) -> None:
 def label_ends(
     axes: Axes, x: float, ends: Sequence[float], texts: Sequence[str], colours: Sequence[Any]
 ) -> None:
-    """Write each text at the right of its line's end, moved apart where they would overlap.
-
-    Parameters
-    ----------
-    axes : Axes
-        To write on.
-    x : float
-        Of all ends.
-    ends : sequence of float
-        y of each.
-    texts : sequence of str
-        Of each.
-    colours : sequence of object
-        Of each.
-    """
+    """Write each text at the right of its line's end, moved apart where they would overlap."""
     figure = axes.get_figure(root=True)
     assert figure is not None
     figure.draw_without_rendering()  # settles the size of the axes
@@ -241,21 +168,7 @@ def label_ends(
 
 
 def separate(places: Sequence[float], least: float) -> np.ndarray:
-    """Places moved as little as possible, in the mean square, until neighbours are far enough apart; order is
-    kept.
-
-    Parameters
-    ----------
-    places : sequence of float
-        In their order.
-    least : float
-        Distance of neighbours.
-
-    Returns
-    -------
-    ndarray
-        Moved.
-    """
+    """Places moved as little as possible, in the mean square, until neighbours are `least` apart; order is kept."""
     wanted, steps = np.asarray(places, float), least * np.arange(len(places))
     order, result = np.argsort(wanted, kind="stable"), np.empty_like(wanted)
     # Less the steps, "far enough apart" is "not falling", of which isotonic regression is the least-squares solution.

@@ -20,17 +20,7 @@ COLUMN = 1000  # px, more than a journal's column of 90 mm has; a broader figure
 
 @dataclass(frozen=True)
 class Entry:
-    """A figure (PNG) or a table (the HTML page made of it).
-
-    Parameters
-    ----------
-    part : str
-        Of the report.
-    path : path
-        Of the file.
-    sources : list of path
-        The files that hold its data.
-    """
+    """A figure (PNG) or a table (the HTML page made of it) of a part of the report; `sources` hold its data."""
 
     part: str
     path: Path
@@ -47,23 +37,8 @@ def assemble(
 ) -> str:
     """The report as one HTML file.
 
-    Parameters
-    ----------
-    study : str
-        Its name.
-    page : mapping
-        First page.
-    entries : iterable of Entry
-        Figures and tables.
-    captions : path
-        Folder with a reStructuredText file for each entry, its first line in bold.
-    folder : path
-        Where the report will stand; from there links lead to the files behind figures and tables.
-
-    Returns
-    -------
-    str
-        HTML.
+    `page` is the first page; `captions` is a folder with a reStructuredText file for each entry, its first line in
+    bold. `folder` is where the report will stand; from there links lead to the files behind figures and tables.
     """
     parts: dict[str, list[dict[str, Any]]] = {}
     for entry in entries:

@@ -13,17 +13,9 @@ from asphalt_nscd.reporting.pages.svg import Axis, Frame, colours, svg
 
 
 def curves(of_mixes: pd.DataFrame) -> list[str]:
-    """|E*| and phase of each mix at one temperature, with 95 % bands, as SVG.
+    """Two SVG charts, |E*| and phase of each mix at one temperature, with 95 % bands.
 
-    Parameters
-    ----------
-    of_mixes : DataFrame
-        Mix, frequency_Hz, temperature_C, E_MPa and phase_deg with their bounds _low and _high.
-
-    Returns
-    -------
-    list of str
-        Two charts.
+    `of_mixes` has mix, frequency_Hz, temperature_C, E_MPa and phase_deg with their bounds _low and _high.
     """
     at = f"frequency (Hz), at {of_mixes['temperature_C'].iloc[0]:g} °C"
     across = Axis(at, lambda of, _: of["frequency_Hz"], log=True)
@@ -47,18 +39,10 @@ def _path(points: list[tuple[float, float]]) -> str:
 
 
 def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame, machine: str = "") -> None:
-    """Write the page: ranking, curves, and a link to the diagnosis of each mix beside it.
+    """Write the page: ranking, curves, and a link to the diagnosis of each mix in a folder beside it.
 
-    Parameters
-    ----------
-    path : Path
-        Of the page; folders of the mixes lie beside it.
-    table : DataFrame
-        A row for each mix, the stiffest first, with its ranks.
-    of_mixes : DataFrame
-        As of `curves`.
-    machine : str
-        What one machine does to all mixes, a sentence a line, if that was asked.
+    `table` has a row for each mix, the stiffest first, with its ranks; `of_mixes` is as in `curves`; `machine` says
+    what one machine does to all mixes, a sentence a line, if that was asked.
     """
     first = table.iloc[0]
     lines = [

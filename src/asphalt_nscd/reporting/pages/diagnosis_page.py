@@ -59,39 +59,13 @@ CELSIUS, DEGREES, MINUS = (
 
 
 def in_type(text: str) -> str:
-    """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus.
-
-    Parameters
-    ----------
-    text : str
-        Of the terminal.
-
-    Returns
-    -------
-    str
-        In print.
-    """
+    """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus."""
     text = DEGREES.sub("°", CELSIUS.sub("°C", text).replace("+-", "±"))
     return MINUS.sub("\N{MINUS SIGN}", text)
 
 
 def render(content: dict[str, Any], title: str, links: Sequence[str] = ()) -> str:
-    """HTML of the sections.
-
-    Parameters
-    ----------
-    content : dict
-        Of `sections`.
-    title : str
-        Of the page.
-    links : sequence of str
-        Files beside the page that hold what it shows.
-
-    Returns
-    -------
-    str
-        HTML.
-    """
+    """HTML of what `sections` gives; `links` are files beside the page that hold what it shows."""
     filled = environment()
     filled.filters["in_type"] = in_type
     return filled.get_template(TEMPLATE).render(
@@ -107,25 +81,9 @@ def sections(
     ladder: Sequence[Path] = (),
     curve: Sequence[Path] = (),
 ) -> dict[str, Any]:
-    """What the page says, as text and rows of text, and plots that name their tests.
+    """What the page says, for its template: text, rows of text, and plots that name their tests.
 
-    Parameters
-    ----------
-    diagnosis : list of path
-        diagnosis.json.
-    residuals : list of path
-        residuals.csv.
-    causality : list of path
-        causality.csv.
-    table4, ladder : sequence of path
-        Tables of a study.
-    curve : sequence of path
-        master_curve.csv.
-
-    Returns
-    -------
-    dict
-        For the template.
+    `table4` and `ladder` are tables of a study; `curve` is master_curve.csv.
     """
     content = read_diagnosis(diagnosis)
     rungs = content["ladder"]
@@ -161,17 +119,7 @@ def sections(
 def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any]:
     """What a laboratory reads first, as the terminal says it; of a study, with the errors of its own campaigns.
 
-    Parameters
-    ----------
-    content : dict
-        Of diagnosis.json.
-    ladder : sequence of path
-        The one ladder.csv of a study; empty for a table alone.
-
-    Returns
-    -------
-    dict of str to object
-        What the template of the page asks for.
+    `content` is that of diagnosis.json; `ladder` is the one ladder.csv of a study, empty for a table alone.
     """
     left = left_by_the_last(read_ladder(ladder)) if ladder else None
     none = {"orders": [], "costs": ""}
@@ -207,20 +155,10 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
 
 
 def law(content: dict[str, Any], curve: Sequence[Path]) -> dict[str, Any] | None:
-    """law.json as a page shows it: its curve, its parameters, and beside it the laws that were not taken.
+    """What a page shows of law.json: title, charts, parameters with their intervals, and the errors of all laws.
 
-    Parameters
-    ----------
-    content : dict
-        Of diagnosis.json: laws; where it has it, law_parameters.
-    curve : sequence of path
-        The one master_curve.csv, or empty: then without a chart.
-
-    Returns
-    -------
-    dict of str to object, or None
-        Title, charts, parameters with their intervals, and errors of all laws; None where no law was
-        fitted.
+    `content` is that of diagnosis.json; without the one master_curve.csv in `curve` there is no chart. Returns None
+    where no law was fitted.
     """
     if "law_parameters" not in content:
         return None
@@ -250,18 +188,7 @@ def _parameter(key: str, one: dict[str, Any]) -> list[str]:
 
 
 def scatter(content: dict[str, Any]) -> str:
-    """How large the scatter of one test is taken to be, as a paragraph.
-
-    Parameters
-    ----------
-    content : dict
-        Of diagnosis.json: scatter and provenance.
-
-    Returns
-    -------
-    str
-        Percent of |E*| and degrees, and how they are known.
-    """
+    """Paragraph on the scatter that one test is taken to have, in % of |E*| and degrees, and how it is known."""
     scatter = content["scatter"]
     sizes = (
         f"The scatter of one test is taken as {scatter['modulus_percent']:.2g} % of |E*| and "

@@ -44,26 +44,11 @@ def first_page(
     ladder: Sequence[Path],
     beside: Sequence[Path] = (),
 ) -> dict[str, Any]:
-    """Sentences of each part, and rows of the gain.
+    """What the template of the first page asks for: sentences of each part, and rows of the gain.
 
-    Parameters
-    ----------
-    measured, simulations, samples : sequence of path
-        One CSV table each, as the workflow makes them.
-    diagnosis : list of path
-        The one diagnosis.json.
-    pictures : list of path
-        PNG, with which the page opens.
-    ladder : sequence of path
-        The one ladder.csv, the errors of each campaign.
-    beside : sequence of path
-        rivals.csv, the errors of tests left out, and ensemble.csv, the gain on data that meet the paper's
-        tables.
-
-    Returns
-    -------
-    dict of str to object
-        What the template of the page asks for.
+    Each sequence holds one file; the PNG in `pictures` opens the page. `ladder` is ladder.csv, the errors of each
+    campaign. `beside` holds rivals.csv, the errors of tests left out, and ensemble.csv, the gain on data that meet the
+    paper's tables.
     """
     content = read_diagnosis(diagnosis)
     told = first(content, ladder)

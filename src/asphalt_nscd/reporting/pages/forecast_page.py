@@ -28,20 +28,7 @@ HEAD = (
 
 
 def write_page(found: Forecast, folder: Path) -> Path:
-    """Write forecast.html, with its figures in it.
-
-    Parameters
-    ----------
-    found : Forecast
-        Of a recipe.
-    folder : Path
-        The page goes there, beside the tables and the law that it links.
-
-    Returns
-    -------
-    Path
-        Of the page.
-    """
+    """Write forecast.html, with its figures in it, beside the tables and the law that it links; returns its path."""
     said, points = written.summary(found), written.points(found)
     doubts = {name: size["E_percent"] for name, size in said["doubts"].items()}
     content = (

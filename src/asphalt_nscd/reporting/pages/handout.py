@@ -27,17 +27,7 @@ SIZE = 9.0  # points
 def write_handout(folder: Path, title: str) -> Path:
     """Write report.pdf from diagnosis.json, corrected.csv, reported.csv and master_curve.csv of a folder.
 
-    Parameters
-    ----------
-    folder : Path
-        Of a diagnosis.
-    title : str
-        On the first page, and of the file.
-
-    Returns
-    -------
-    Path
-        Of the file; it holds no time of day, so that the same diagnosis gives the same bytes.
+    The file holds no time of day, so that the same diagnosis gives the same bytes.
     """
     from matplotlib.backends.backend_pdf import PdfPages
 
@@ -94,18 +84,7 @@ def _asked_for(value: dict[str, Any]) -> list[str]:
 
 
 def law_in_words(content: dict[str, Any]) -> str:
-    """Parameters of law.json with their 95 % intervals; empty where there is no law.
-
-    Parameters
-    ----------
-    content : dict
-        Of diagnosis.json: laws; where it has it, law_parameters.
-
-    Returns
-    -------
-    str
-        A sentence; parameters without an interval stand alone.
-    """
+    """Parameters of law.json with their 95 % intervals, as a sentence; empty where there is no law."""
     if "law_parameters" not in content:
         return ""
     (title,) = (one["title"] for one in content["laws"] if one["taken"])

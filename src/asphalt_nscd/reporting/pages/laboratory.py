@@ -11,20 +11,7 @@ PAGE = "diagnosis.html"
 
 
 def write_page(folder: Path, title: str) -> Path:
-    """Write diagnosis.html from diagnosis.json, residuals.csv and causality.csv of a folder.
-
-    Parameters
-    ----------
-    folder : Path
-        Of a diagnosis; the page links limits.csv and law.json where they are.
-    title : str
-        Of the page.
-
-    Returns
-    -------
-    Path
-        Of the page.
-    """
+    """Write diagnosis.html from the files of a diagnosis; it links limits.csv and law.json where they are."""
     diagnosis, residuals, causality = (
         folder / name for name in ("diagnosis.json", "residuals.csv", "causality.csv")
     )

@@ -43,20 +43,7 @@ FRAMED = '<rect class="axis thin" x=".06" y=".1" width=".88" height=".8"/>'
 
 
 def charts(residuals: Sequence[Path], diagnosis: Sequence[Path]) -> list[Chart]:
-    """Residual map, master curve (isotherms where no law is common to all temperatures) and Black diagram.
-
-    Parameters
-    ----------
-    residuals : sequence of path
-        The one residuals.csv.
-    diagnosis : sequence of path
-        The one diagnosis.json.
-
-    Returns
-    -------
-    list of Chart
-        Each with its plots and the colours of the isotherms.
-    """
+    """Residual map, master curve (isotherms where no law is common to all temperatures) and Black diagram."""
     content = read_diagnosis(diagnosis)
     shift = next((rung["log10_shift"] for rung in content["ladder"] if "log10_shift" in rung), None)
     tests = read_residuals(residuals)
@@ -91,20 +78,7 @@ def charts(residuals: Sequence[Path], diagnosis: Sequence[Path]) -> list[Chart]:
 
 
 def law_chart(title: str, curve: Sequence[Path]) -> Chart:
-    """The law and the free master curve with the 95 % band of each, at the reference temperature.
-
-    Parameters
-    ----------
-    title : str
-        Of the law.
-    curve : sequence of path
-        The one master_curve.csv.
-
-    Returns
-    -------
-    Chart
-        |E*| and phase over the frequency.
-    """
+    """|E*| and phase of the law and the free master curve, with 95 % bands, at the reference temperature."""
     table = read_csv(the_only(curve, "master curve"))
     names = [name for name in table.columns if name != "temperature_C"]
     frame = pd.DataFrame({name: table.numbers(name) for name in names})

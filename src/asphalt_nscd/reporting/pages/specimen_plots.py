@@ -33,21 +33,7 @@ FLAG = '<path class="mark full" d="M.82 .26L.88 .08L.94 .26Z"/>'
 
 
 def charts(causality: Sequence[Path], diagnosis: Sequence[Path]) -> list[Chart]:
-    """Black diagram and master curves with a colour for each specimen; a causality map for each.
-
-    Parameters
-    ----------
-    causality : sequence of path
-        The one causality.csv.
-    diagnosis : sequence of path
-        The one diagnosis.json.
-
-    Returns
-    -------
-    list of Chart
-        Two: Black diagram with master curves, then maps of the measured phase less the one that causality
-        requires.
-    """
+    """Black diagram with master curves, and maps of measured phase less that of causality, by specimen."""
     content, tests = read_diagnosis(diagnosis), read_causality(causality)
     return [_side_by_side(tests, content), _against_phase(tests)]
 

@@ -15,22 +15,7 @@ from asphalt_nscd.reporting.pages.svg import HINT, MODULUS, Axis, Frame, colours
 
 
 def write_page(folder: Path, title: str, said: str) -> Path:
-    """Write the page beside stiffness_residuals.csv and master_curve.csv.
-
-    Parameters
-    ----------
-    folder : Path
-        Of the answer; the page goes there too.
-    title : str
-        Of the page.
-    said : str
-        The answer, a line for each label.
-
-    Returns
-    -------
-    Path
-        Of the page.
-    """
+    """Write the page beside stiffness_residuals.csv and master_curve.csv; `said` holds a line for each label."""
     tests = pd.read_csv(folder / "stiffness_residuals.csv", dtype={"specimen": str})
     curve = pd.read_csv(folder / "master_curve.csv").rename(columns={"frequency_Hz": "reduced_frequency_Hz"})
     label = f"reduced frequency (Hz), at {curve['temperature_C'].iloc[0]:g} \N{DEGREE SIGN}C"

@@ -43,27 +43,7 @@ def environment() -> Environment:
 
 
 def page(table: str | Path, title: str) -> str:
-    """The CSV table as one HTML page; numbers to six digits, empty cells empty.
-
-    Comment lines at its beginning stand above it.
-
-    Parameters
-    ----------
-    table : path
-        CSV file.
-    title : str
-        Of the page.
-
-    Returns
-    -------
-    str
-        HTML that needs no other file.
-
-    Raises
-    ------
-    InputError
-        For a file that is missing, or no CSV table.
-    """
+    """The CSV table as one self-contained HTML page, its leading comments above it, numbers to six digits."""
     try:
         with Path(table).open(encoding="utf-8") as file:
             notes = [

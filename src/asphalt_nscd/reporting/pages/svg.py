@@ -48,34 +48,12 @@ class Axis:
     log: bool = False
 
     def place(self, values: Sequence[float] | np.ndarray) -> np.ndarray:
-        """Places of values along the axis: their logarithms, where it is logarithmic.
-
-        Parameters
-        ----------
-        values : array_like (n,)
-            In the unit of the axis.
-
-        Returns
-        -------
-        ndarray (n,)
-            In decades, or as they are.
-        """
+        """Places of values along the axis: their logarithms in decades where it is logarithmic, else as they are."""
         of = np.asarray(values, float)
         return np.log10(of) if self.log else of
 
     def ticks(self, low: float, high: float) -> list[tuple[float, str]]:
-        """Places and labels between two places.
-
-        Parameters
-        ----------
-        low, high : float
-            Ends of what is drawn, as places.
-
-        Returns
-        -------
-        list of tuple
-            Place and label of each.
-        """
+        """Place and label of each tick between two places."""
         if not self.log:
             decade = 10.0 ** np.floor(np.log10((high - low) / MOST_TICKS))
             step = next(
@@ -145,19 +123,9 @@ class Frame:
         self.parts.append(text(2, 13, f"{y.label}", "start"))
 
     def points(self, table: pd.DataFrame, end: str = "") -> list[tuple[float, float]]:
-        """Where the rows of a table stand.
+        """x and y [px] of each row of a table that has the columns of both axes.
 
-        Parameters
-        ----------
-        table : DataFrame
-            With the columns that both axes ask for.
-        end : str
-            Ending of their names: empty for what was measured, else "_after", "_low" or "_high".
-
-        Returns
-        -------
-        list of tuple of float
-            x and y of each row [px].
+        `end` is the ending of their names: empty for what was measured, else "_after", "_low" or "_high".
         """
         columns = (
             self.across.on(self.x.place(self.x.values(table, end)), LEFT, WIDTH - RIGHT),
@@ -167,43 +135,15 @@ class Frame:
 
 
 def key(specimen: object, isotherm: float, frequency: float) -> str:
-    """What is the same wherever a page shows a test, or, without a specimen, all tests of a condition.
-
-    Parameters
-    ----------
-    specimen : object
-        Its name; empty for all specimens.
-    isotherm : float
-        [degC].
-    frequency : float
-        [Hz].
-
-    Returns
-    -------
-    str
-        By which the script of the page finds the test in other charts.
-    """
+    """Key by which charts of a page find a test, or without a specimen all tests of a condition [degC, Hz]."""
     return f"{specimen}|{isotherm:g}|{frequency:.4g}"
 
 
 def test(at: tuple[float, float], words: str, key: str, look: str = "test") -> str:
-    """A circle that says which test it is.
+    """SVG circle centred `at` [px] that says which test it is.
 
-    Parameters
-    ----------
-    at : tuple of float
-        Its centre [px].
-    words : str
-        The hint that a browser shows and a screen reader says.
-    key : str
-        Of `key`.
-    look : str
-        Its class in the style.
-
-    Returns
-    -------
-    str
-        SVG.
+    `words` are the hint that a browser shows and a screen reader says; `key` is what the function `key` gives; `look`
+    is a class of the style.
     """
     return (
         # The title is the hint that a browser shows and what a screen reader says.
@@ -226,23 +166,9 @@ class Cell:
 
 
 def cells(title: str, label: str, every: Sequence[Cell], largest: float) -> str:
-    """A map over frequency and temperature, coloured by value as far as `largest`.
+    """SVG map over frequency [Hz] and temperature [degC], coloured by value as far as `largest`.
 
-    Parameters
-    ----------
-    title : str
-        Above the map.
-    label : str
-        For those who hear it.
-    every : sequence of Cell
-        Temperature [degC], frequency [Hz] and value of each.
-    largest : float
-        Value at which the colours end.
-
-    Returns
-    -------
-    str
-        SVG.
+    `title` stands above the map, `label` is for those who hear it; cells are (temperature, frequency, value).
     """
     temperatures, frequencies = (
         sorted({getattr(cell, name) for cell in every}) for name in ("temperature", "frequency")
@@ -285,18 +211,7 @@ def cells(title: str, label: str, every: Sequence[Cell], largest: float) -> str:
 
 
 def colours(count: int) -> list[tuple[str, str]]:
-    """Of each series, cold to warm, on a light and on a dark page; as the figures have them.
-
-    Parameters
-    ----------
-    count : int
-        How many series.
-
-    Returns
-    -------
-    list of tuple of str
-        Two colours for each, of plasma, as #rrggbb.
-    """
+    """Colours (#rrggbb) of each series on a light and on a dark page, cold to warm, from plasma as in the figures."""
     light, dark = (np.linspace(*ends, max(count, 2))[:count] for ends in ((0.0, 0.7), (0.4, 1.0)))
     return [(_plasma(one), _plasma(other)) for one, other in zip(light, dark, strict=True)]
 
@@ -309,59 +224,22 @@ def _plasma(place: float) -> str:
 
 
 def signed(value: float) -> str:
-    """A number with its sign and two digits.
-
-    Parameters
-    ----------
-    value : float
-        Its unit is not shown.
-
-    Returns
-    -------
-    str
-        With a true minus sign; without decimals from ten on.
-    """
+    """A number with its sign (a true minus) and two digits, without decimals from ten on."""
     digits = 0 if abs(value) >= 9.95 else 1
     return minus(f"{round(value, digits) + 0.0:+.{digits}f}")
 
 
 def text(x: float, y: float, words: str, anchor: str = "middle", look: str = "") -> str:
-    """Words at a point [px].
+    """SVG of words at a point [px]; markup in them is escaped.
 
-    Parameters
-    ----------
-    x, y : float
-        [px].
-    words : str
-        As they are read; markup in them is escaped.
-    anchor : str
-        Which part of the words stands there: start, middle or end.
-    look : str
-        Further attributes, with a space before them.
-
-    Returns
-    -------
-    str
-        SVG.
+    `anchor` is the part of the words that stands there: start, middle or end; `look` holds further attributes, with a
+    space before them.
     """
     return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}"{look}>{escape(words)}</text>'
 
 
 def svg(label: str, parts: Sequence[str]) -> str:
-    """A chart of these parts, with a label for those who hear it.
-
-    Parameters
-    ----------
-    label : str
-        What a screen reader says.
-    parts : sequence of str
-        SVG elements, the first one lowest.
-
-    Returns
-    -------
-    str
-        SVG.
-    """
+    """A chart of SVG elements, the first one lowest, with a label that a screen reader says."""
     return (
         f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="group" aria-roledescription="chart" tabindex="0" '
         f'aria-label="{escape(label)}">{"".join(parts)}</svg>'

@@ -15,23 +15,7 @@ QUANTITIES = {"E": "|E*|", "phase": "phase"}
 
 
 def read_ladder(paths: Sequence[Path]) -> pd.DataFrame:
-    """The one ladder.csv: rung, temperature_C and errors in percent; NaN where one does not apply.
-
-    Parameters
-    ----------
-    paths : sequence of path
-        Exactly one.
-
-    Returns
-    -------
-    DataFrame
-        A row for each rung and temperature.
-
-    Raises
-    ------
-    InputError
-        For none or several, and for a table without these columns.
-    """
+    """Read the one ladder.csv: rung, temperature_C and errors in percent; NaN where one does not apply."""
     table = read_csv(the_only(paths, "ladder"))
     names = ["temperature_C"]
     for quantity in QUANTITIES:
@@ -43,54 +27,21 @@ def read_ladder(paths: Sequence[Path]) -> pd.DataFrame:
 
 
 def means(ladder: pd.DataFrame) -> pd.DataFrame:
-    """Means over temperatures by rung, in the order climbed; what holds for some temperatures only is NaN.
-
-    Parameters
-    ----------
-    ladder : DataFrame
-        Of `read_ladder`.
-
-    Returns
-    -------
-    DataFrame
-        A row for each rung, errors in percent.
-    """
+    """Mean errors [%] over temperatures by rung, in the order climbed; NaN where some temperature has none."""
     return ladder.groupby("rung", sort=False).agg(lambda errors: errors.mean(skipna=False))
 
 
 def left_by_the_last(ladder: pd.DataFrame) -> dict[str, float]:
-    """Errors in percent after the last rung, mean over temperatures, by quantity.
-
-    Parameters
-    ----------
-    ladder : DataFrame
-        Of `read_ladder`.
-
-    Returns
-    -------
-    dict of str to float
-        By "E" and "phase" [%].
-    """
+    """Errors [%] after the last rung, mean over temperatures, by "E" and "phase"."""
     last = means(ladder).iloc[-1]
     return {quantity: float(last[f"mre_{quantity}_percent"]) for quantity in QUANTITIES}
 
 
 def held_out(ladder: pd.DataFrame, ends: bool) -> dict[str, float]:
-    """Errors of the last rung at temperatures left out of the fit, mean over both ends or over those between.
+    """Errors [%] of the last rung at temperatures left out of the fit, by "E" and "phase".
 
-    Empty where too few temperatures were tested.
-
-    Parameters
-    ----------
-    ladder : DataFrame
-        Of `read_ladder`.
-    ends : bool
-        Over the coldest and the warmest, else over all between.
-
-    Returns
-    -------
-    dict of str to float
-        By "E" and "phase" [%].
+    With `ends` they are means over the coldest and the warmest, else over all between; empty where too few temperatures
+    were tested.
     """
     last = ladder[ladder["rung"] == ladder["rung"].iloc[-1]]
     at = last["temperature_C"]
