@@ -16,6 +16,7 @@ from asphalt_nscd.diagnosis.model.joint import Joint
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.scatter import STATED
 from asphalt_nscd.diagnosis.record.rungs import of_cause, of_law
+from asphalt_nscd.diagnosis.screening.excess_phase import excess_phases
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, cell_residuals
 from asphalt_nscd.diagnosis.simulation.gain import by_tests_alone, errors, simulated_by, with_burgers_laws
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
@@ -65,6 +66,7 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
         "detection_limits_of_one_place": _limits_of_one_place(diagnosis),
         "estimates": _estimates(diagnosis),
         "estimates_spread": spread,
+        "excess_phase": _excess_phases(diagnosis),
         "discrepancy": [
             {
                 "kind": one.kind,
@@ -94,6 +96,24 @@ def _numerics(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, An
         "largest_modulus_percent": 100.0 * float(np.abs(effect.real).max()),
         "largest_phase_deg": float(np.degrees(np.abs(effect.imag).max())),
     }
+
+
+def _excess_phases(diagnosis: Diagnosis) -> list[dict[str, Any]]:
+    """The excess of each isotherm, with the mean drift of the deformation where the machine gave it."""
+    observed = diagnosis.observed
+    drift = observed.quality.get("deformation_drift_percent", np.full(observed.size, np.nan))
+    rows = []
+    for one in excess_phases(observed, diagnosis.alone):
+        known = drift[(observed.isotherm == one.temperature) & np.isfinite(drift)]
+        rows.append(
+            {
+                "temperature_C": one.temperature,
+                "excess_deg": float(np.degrees(one.excess)),
+                "standard_error_deg": float(np.degrees(one.std_error)),
+                "deformation_drift_percent": float(known.mean()) if known.size else None,
+            }
+        )
+    return rows
 
 
 def _burgers_parameters(diagnosis: Diagnosis) -> dict[str, dict[str, float]]:

@@ -23,6 +23,7 @@ def summary(content: Content) -> str:
     simulated, two_laws = verdict.on_simulation(content), verdict.two_laws(content)
     none_named = list(filter(None, [unexplained.no_cause(content)]))
     scatter, limits = table_rows.scatter_rows(content), table_rows.measured_limits(content)
+    excess = table_rows.excess_rows(content)
     parts = [
         ("", [answer(content)]),
         ("Why tests are left out", _suspects(content)),
@@ -40,6 +41,7 @@ def summary(content: Content) -> str:
         ("What stays unexplained", _left(content)),
         ("Why these tests next", _orders(content)),
         ("Scatter", _table(table_rows.SCATTER_CAPTION, table_rows.SCATTER_HEAD, scatter)),
+        ("Phase above what |E*| requires", _table(table_rows.EXCESS_CAPTION, table_rows.EXCESS_HEAD, excess)),
         ("Limits, stated and measured", _table(table_rows.LIMITS_STATED, table_rows.LIMITS_HEAD, limits)),
         ("Remarks", content["notes"]),
         ("What was read", read["notes"]),

@@ -15,6 +15,18 @@ def scatter_rows(content: Content) -> list[list[str]]:
     return [[name, *_four(row)] for name, row in rows[1:] + rows[:1]]
 
 
+def excess_rows(content: Content) -> list[list[str]]:
+    """Excess of the phase [degrees] by isotherm, its standard error, and the machine's drift of deformation [%]."""
+    rows = []
+    for one in content.get("excess_phase", []):
+        drift = one["deformation_drift_percent"]
+        excess, error = (f"{one[key]:.2f}" for key in ("excess_deg", "standard_error_deg"))
+        rows.append(
+            [f"{one['temperature_C']:g} degC", excess, error, "" if drift is None else f"{drift:.0f}"]
+        )
+    return rows
+
+
 def measured_limits(content: Content) -> list[list[str]]:
     """Cause, its limit, how often it was named of how many tries at 1, 2, 3 times it; how often another was named."""
     rows = []
@@ -37,6 +49,11 @@ SCATTER_CAPTION = (
     "Standard deviations at one temperature and frequency. Between: among the specimens. Within: of one specimen about "
     "its own level at that temperature."
 )
+EXCESS_CAPTION = (
+    "How far the phase lies above what |E*| of the same isotherm requires, mean over its frequencies. "
+    "A linear mix that is measured without fault has no excess. It needs no law of the mix."
+)
+EXCESS_HEAD = ["isotherm", "excess, deg", "standard error, deg", "machine's drift of deformation, %"]
 SCATTER_HEAD = ["isotherm", "between, |E*| %", "between, phase deg", "within, |E*| %", "within, phase deg"]
 
 

@@ -151,6 +151,9 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "scatter_caption": table_rows.SCATTER_CAPTION,
         "scatter_head": [in_type(name).replace("deg", "°") for name in table_rows.SCATTER_HEAD],
         "scatter": [[in_type(cell) for cell in row] for row in table_rows.scatter_rows(content)],
+        "excess_caption": table_rows.EXCESS_CAPTION,
+        "excess_head": [in_type(name).replace("deg", "°") for name in table_rows.EXCESS_HEAD],
+        "excess": [[in_type(cell) for cell in row] for row in table_rows.excess_rows(content)],
     }
 
 
