@@ -1,0 +1,120 @@
+"""The excess phase of measured mixes, and how much of it is the machine's reading of a haversine that drifts.
+
+Nothing is fitted to a phase. What |E*| requires of the phase (Kramers and Kronig) gives the local exponent n of a power
+law. Read from rest without a term for the drift, such a linear mix shows a phase above 90 degrees times n. That is the
+prediction. It has no parameter but the number of cycles, those of a usual machine: ten, of which five are read.
+It is not blind: both populations were in sight when the mechanism was thought of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.diagnosis.screening.excess_phase import constant_excess
+from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
+from asphalt_nscd.rheology.as_run import Programme, modulus_as_read
+from asphalt_nscd.rheology.conversion import kelvin_chain
+
+PROGRAMME = Programme(cycles=10, read=5)
+SCATTER = 0.02, np.radians(0.4)  # of ln|E*| and phase of one test, as usual in the nine NCAT campaigns
+EXPONENTS = np.linspace(0.02, 0.7, 18)
+LEAST = 3  # frequencies of an isotherm
+QUARTER = 0.5 * np.pi  # phase [rad] of a power law with an exponent of 1
+
+
+def excess_read(programme: Programme = PROGRAMME) -> np.ndarray:
+    """Phase [rad] above that of the law, (k,), for power laws of the exponents EXPONENTS."""
+    band = 2.0 * np.pi * 1e-3, 2.0 * np.pi * 1e2
+    phases = [
+        float(
+            np.angle(modulus_as_read(kelvin_chain(lambda w, n=n: (1j * w) ** n, *band)[0], [1.0], programme))[
+                0
+            ]
+        )
+        for n in EXPONENTS
+    ]
+    return np.array(phases) - QUARTER * EXPONENTS
+
+
+def isotherms(table: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
+    """Mean ln|E*| and phase [rad] of the specimens at each frequency, by temperature [degC]."""
+    means = table.assign(log_modulus=np.log(table["E_MPa"]), phase=np.radians(table["phase_deg"]))
+    means = means.groupby(["temperature_C", "frequency_Hz"])[["log_modulus", "phase"]].agg(["mean", "count"])
+    found = []
+    for temperature, group in means.groupby(level=0):
+        rows = group.droplevel(0)
+        if len(rows) >= LEAST:
+            columns = {name: rows[(name, "mean")] for name in ("log_modulus", "phase")}
+            found.append((float(temperature), pd.DataFrame(columns).assign(count=rows[("phase", "count")])))
+    return found
+
+
+def excess(population: str, mix: str, table: pd.DataFrame) -> pd.DataFrame:
+    """One row for each test condition of a mix; `table` has temperature_C, frequency_Hz, E_MPa and phase_deg."""
+    read = excess_read()
+    parts = []
+    for temperature, at in isotherms(table):
+        frequency, log_modulus, phase, count = (
+            at.index.to_numpy(),
+            at["log_modulus"].to_numpy(),
+            at["phase"].to_numpy(),
+            at["count"].to_numpy(),
+        )
+        modulus_scatter, phase_scatter = (size / np.sqrt(count) for size in SCATTER)
+        required = required_phase(frequency, log_modulus, modulus_scatter)
+        whole = constant_excess(
+            frequency, np.array([log_modulus, phase]), np.array([modulus_scatter, phase_scatter]) ** 2, 0.0
+        )
+        reading = np.interp(required.phase / QUARTER, EXPONENTS, read)
+        parts.append(
+            pd.DataFrame(
+                {
+                    "population": population,
+                    "mix": mix,
+                    "temperature_C": temperature,
+                    "frequency_Hz": frequency,
+                    "measured_deg": np.degrees(phase - required.phase),
+                    "standard_error_deg": np.degrees(np.hypot(required.std_error, phase_scatter)),
+                    "reading_deg": np.degrees(reading),
+                    "isotherm_deg": np.degrees(whole[0]),
+                    "isotherm_standard_error_deg": np.degrees(whole[1]),
+                }
+            )
+        )
+    return pd.concat(parts, ignore_index=True)
+
+
+def budget(table: pd.DataFrame) -> pd.DataFrame:
+    """By population and isotherm: mean excess over the mixes, what the reading explains, and what a constant would."""
+    by_mix = table.groupby(["population", "temperature_C", "mix"])[["isotherm_deg", "reading_deg"]].mean()
+    rows = []
+    for (population, temperature), group in by_mix.groupby(level=[0, 1]):
+        measured, reading = group["isotherm_deg"], group["reading_deg"]
+        several = len(group) > 2
+        rows.append(
+            {
+                "population": population,
+                "temperature_C": temperature,
+                "mixes": len(group),
+                "measured_deg": measured.mean(),
+                "standard_error_deg": measured.sem() if several else np.nan,
+                "reading_deg": reading.mean(),
+                "correlation": measured.corr(reading) if several else np.nan,
+                "rms_deg": np.sqrt((measured**2).mean()),
+                "rms_less_reading_deg": np.sqrt(((measured - reading) ** 2).mean()),
+                "rms_less_mean_deg": measured.std(ddof=0),
+            }
+        )
+    return pd.DataFrame(rows)
+
+
+def tables(ncat: Sequence[Path], mixes: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """excess.csv and budget.csv of the nine NCAT mixes and of those of data/mixes50."""
+    parts = [excess("ncat", path.stem, pd.read_csv(path, comment="#")) for path in ncat]
+    parts += [excess("mixes50", str(mix), rows) for mix, rows in pd.read_csv(mixes).groupby("mix")]
+    table = pd.concat(parts, ignore_index=True)
+    return table, budget(table)
