@@ -53,6 +53,13 @@ def test_the_law_is_found_again_at_all_times(prism, law, what):
     assert table.attrs["broken_bonds"] == 0 and table.attrs["residual"] < 1e-6
 
 
+def test_the_band_is_where_elements_that_relax_in_these_times_lose_most():
+    held = Hold(10.0, 500)
+    for hertz, time in zip(held.band, (10.0, 0.02), strict=True):
+        lag = 2j * np.pi * time * hertz * np.array([0.99, 1.0, 1.01])
+        assert np.argmax((lag / (1.0 + lag)).imag) == 1
+
+
 def test_what_breaks_is_told(prism):
     table = hold(prism, QUICK, Hold(1e-3, 20, displacement_m=1e-5))
     assert table.attrs["broken_bonds"] > 0 and "broke" in told(table)

@@ -83,8 +83,8 @@ def test_what_the_law_follows_is_not_seen_but_of_one_specimen(model):
     assert chance.scores(joint, one, followed, np.array([False])).z[0] == 0.0
 
 
-def independent(k, seen=True):
-    return Scores(np.zeros(k), np.ones(k), np.full(k, seen), np.eye(k))
+def independent(k, z=0.0):
+    return Scores(np.full(k, z), np.ones(k), np.ones(k, bool), np.eye(k))
 
 
 @pytest.mark.parametrize(("one_sided", "freedom"), [(False, 9), (True, 9), (False, 10**6)])
@@ -137,12 +137,29 @@ def test_the_wrong_sign_of_a_one_sided_effect_is_nothing():
     assert chance.effective(found, np.array([True, False, True])).tolist() == [0.0, 4.0, 3.0]
 
 
+# two specimens at three frequencies, each test twice; freedom of the scatter
+TWO = SimpleNamespace(
+    observed=SimpleNamespace(
+        specimen=np.repeat([0, 1], 6), frequency=np.tile([1.0, 3.0, 9.0], 4), names=("a", "b"), size=12
+    ),
+    noise=SimpleNamespace(freedom=10.0),
+)
+
+
 def test_a_law_that_takes_all_that_specimens_do_at_a_frequency_leaves_no_pattern(monkeypatch):
     """Each specimen at frequencies of its own: nothing is left of the directions, and once this was divided by none."""
-    observed = SimpleNamespace(
-        specimen=np.repeat([0, 1], 6), frequency=np.tile([1.0, 3.0, 9.0], 4), names=("a", "b"), size=12
-    )
     nothing = Scores(np.zeros(6), np.zeros(6), np.zeros(6, bool), np.zeros((6, 6)))
     monkeypatch.setattr(chance, "scores", lambda *_: nothing)
-    joint = SimpleNamespace(observed=observed, noise=SimpleNamespace(freedom=10.0))
-    assert ladder._interactions(joint, None) == []
+    assert ladder._interactions(TWO, None) == []
+
+
+def test_modulus_and_phase_are_two_tries_of_one_chance(monkeypatch):
+    """Scatter alone gets a p-value below 0.2 once in five tables, less the few where both tries do."""
+    random = np.random.default_rng(9)
+
+    def scatter(*_):
+        return independent(6, z=random.standard_normal(6) / np.sqrt(random.chisquare(10) / 10))
+
+    monkeypatch.setattr(chance, "scores", scatter)
+    least = [min(one.p_value for one in ladder._interactions(TWO, None)) for _ in range(4000)]
+    assert np.mean(np.array(least) < 0.2) == pytest.approx(1 - 0.9**2, abs=0.02)

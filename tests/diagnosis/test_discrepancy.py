@@ -12,6 +12,7 @@ from asphalt_nscd.diagnosis.model import discrepancy, likelihood
 from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
 from asphalt_nscd.diagnosis.model.likelihood import Direction, Reduced
 from asphalt_nscd.diagnosis.observed.noise import Noise
+from asphalt_nscd.diagnosis.observed.observations import Observations
 
 SIZE, PARTS, COLUMNS = 20, 4, 12
 
@@ -57,6 +58,20 @@ def test_a_factor_of_distinct_points_gives_the_kernel_of_all_tests():
     wanted = np.where(reached[:, None] & reached, 0.3 + np.exp(-0.5 * apart**2), 0.0)
     assert kernel @ kernel.T == pytest.approx(wanted, abs=1e-12)
     assert kernel.shape[1] == 3
+
+
+def test_shares_of_a_process_make_its_unit_variance():
+    """A quarter at all frequencies, six tenths smooth over 1.5 of ln f, the rest of one condition; none common to all."""
+    frequency, isotherm = np.tile([1.0, np.exp(1.5)], 4), np.repeat([0.0, 20.0], 4)
+    table = Observations(
+        np.zeros(8, int), ("A",), isotherm, frequency, np.ones(8) + 0j, np.ones(8), np.zeros(8)
+    )
+    found = {process.isotherm: (points, kernel) for process, points, kernel in discrepancy._kernels(table)}
+    for isotherm, level, reached in ((0.0, 0.25, 4), (None, 0.0, 8)):
+        root = discrepancy.factor_of(*found[isotherm], 1e-12)[:reached]
+        apart = level + 0.6 * np.exp(-0.5)
+        expected = np.where(frequency[:reached, None] == frequency[:reached], level + 0.75, apart)
+        assert root @ root.T == pytest.approx(expected, abs=1e-12)
 
 
 def small(random) -> tuple[Reduced, Direction]:

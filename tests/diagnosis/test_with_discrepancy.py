@@ -243,10 +243,11 @@ def test_a_fit_of_shapes_that_does_not_stand_gives_way_to_one_from_another_start
 @pytest.mark.parametrize("likelier", ["secondary_process", "channel_delay"])
 def test_of_causes_as_good_the_likelier_is_named_whatever_its_shapes(monkeypatch, likelier):
     monkeypatch.setattr(with_discrepancy, "of_shapes", lambda *_: 0.0)
-    odds = {"secondary_process": 5.0, "channel_delay": 5.0} | {likelier: 9.0}
+    odds = {"secondary_process": 0.0, "channel_delay": 0.0} | {likelier: 0.1}  # together possible, not alone
     observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
     found = _next_name(monkeypatch, observed, lambda *_: True, odds)
     assert found.candidate.cause.name == likelier
+    assert found.probability == pytest.approx(1.0 / (1.0 + 2.0 * np.exp(-0.1)), rel=1e-6)
     assert found.rivals
 
 

@@ -73,6 +73,19 @@ def test_moduli_of_the_series_scatter_as_told(fitted):
     assert (card.half_widths[1:] > 0.002 * np.array(card.series.moduli)).all()
 
 
+def test_few_freedoms_widen_by_students_factor(fitted, tmp_path):
+    """3.182 of three, tabulated, for the 1.960 of many."""
+    path, fit = fitted
+    write_json(tmp_path / "law.json", fit_content(fit, "fitted", Uncertainty(fit.covariance, (40.0, 3.0))))
+    few, many = (
+        make_card(
+            read_law_file(one, TESTED["temperatures_C"], TESTED["frequencies_Hz"]), Settings()
+        ).half_widths
+        for one in (tmp_path / "law.json", path)
+    )
+    assert few / many == pytest.approx(3.18245 / 1.95996, rel=1e-5)
+
+
 def test_rows_for_aashtoware_have_the_interval_of_the_law(fitted, tmp_path):
     path, fit = fitted
     an.export(path, tmp_path / "m.csv", "mepdg", **TESTED)

@@ -124,10 +124,14 @@ def test_more_rings_change_little():
     np.testing.assert_allclose(one, fine, rtol=0.01)
 
 
-def test_bulk_modulus_without_and_with_nothing_but_grains():
-    matrix = bitumen([6e6, 6e8])
-    np.testing.assert_allclose(bulk_modulus(GRAIN, matrix, 0.0), 2.5e9)
-    np.testing.assert_allclose(bulk_modulus(GRAIN, matrix, 1.0), GRAIN.bulk)
+@pytest.mark.parametrize("share", [1e-9, 0.5, 0.9])
+def test_bulk_modulus_is_that_of_a_grain_in_a_shell(share):
+    """Elasticity of Hashin's sphere: u = c r in the grain, a r + b / r^2 in the shell, u = r at its surface r = 1."""
+    matrix = bitumen(6e8)
+    bulk, shear = 3.0 * matrix.bulk, 4.0 * matrix.shear
+    even = [[1.0, 1.0, 0.0], [1.0, 1.0 / share, -1.0], [bulk, -shear / share, -3.0 * GRAIN.bulk]]
+    a, b, _ = np.linalg.solve(even, [1.0, 0.0, 0.0])
+    assert bulk_modulus(GRAIN, matrix, share) == pytest.approx((bulk * a - shear * b) / 3.0, rel=1e-9)
 
 
 def test_grains_that_touch_have_no_film():

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy.optimize import minimize_scalar
+from scipy.stats import f
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.forecast import Settings, forecast, modulus_of
@@ -163,6 +164,11 @@ def test_pooled_scatter_is_that_of_specimens(tmp_path, networks, recipe):
     assert errors[1].standard_error_percent == pytest.approx(errors[0].standard_error_percent, rel=1e-9)
     # the one deviation: -ln(1.1) a / sum of a^2 in the slope
     assert errors[0].measured_percent == pytest.approx(-6.0 - 100 * np.log(1.1) / 8, rel=1e-9)
+    # twelve specimens less the means of four mixes and a slope
+    error = 100 * np.log(1.1) * np.sqrt((2 / 3 - 1 / 8) / 7 / 8)
+    assert errors[0].standard_error_percent == pytest.approx(error, rel=1e-9)
+    off = (errors[0].forecast_percent - errors[0].measured_percent) / error
+    assert errors[0].probability == pytest.approx(f.sf(off**2, 1, 7), rel=1e-9)
 
 
 def test_a_specimen_without_air_voids_is_named(tmp_path, networks, recipe):

@@ -39,6 +39,24 @@ def test_hirsch_at_a_point_worked_by_hand(recipe):
     assert np.degrees(np.angle(found)) == pytest.approx(-21 * np.log10(pc) ** 2 - 55 * np.log10(pc), rel=1e-6)
 
 
+def test_witczak_at_a_point_worked_by_hand(recipe):
+    """Bari & Witczak (2006), each coefficient beside what it multiplies."""
+    p200, *passing = (100 * recipe.grading.passing_at(mm * 1e-3) for mm in (0.075, 4.75, 9.5, 19))
+    r4, r38, r34 = (100 - share for share in passing)
+    stone, binder = 0.946 / 2670, 0.054 / 1040
+    filled = 0.94 * binder / (0.94 * binder + 0.06 * (stone + binder))
+    g = abs(recipe.binder_modulus()[2]) / 3 / 6894.757
+    lag = np.degrees(np.angle(recipe.binder_modulus()[2]))
+    first = np.dot(
+        [6.65, -0.032, 0.0027, 0.011, -0.0001, 0.006, -0.00014, -0.08, -1.06],
+        [1, p200, p200**2, r4, r4**2, r38, r38**2, 6, filled],
+    )
+    second = np.dot([2.56, 0.03, 0.71, 0.012, -0.0001, -0.01], [1, 6, filled, r38, r38**2, r34])
+    slow = np.exp(np.dot([-0.7814, -0.5785, 0.8834], [1, np.log10(g), np.log10(lag)]))
+    log = -0.349 + 0.754 * g**-0.0052 * first + second / (1 + slow)
+    assert witczak(recipe)[2] == pytest.approx(10**log * PSI, rel=1e-6)
+
+
 def test_regressions_lose_stiffness_with_air(recipe):
     airy = replace(recipe, voids=0.09)
     for rival in (hirsch, witczak, mori_tanaka):

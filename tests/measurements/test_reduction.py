@@ -76,6 +76,21 @@ def test_peaks_are_reduced_by_the_equations_with_each_specimens_geometry(write, 
     assert header == ",".join(REDUCED_COLUMNS)
 
 
+@pytest.mark.parametrize(("phase", "passes"), [(18.5, True), (16.5, False)])
+def test_a_stiff_mix_may_look_soft_where_its_mass_carries_all_but_the_sine(write, phase, passes):
+    """|E*| is 1 GPa, the least of the cold; the sines of 16.5 and 18.5 degrees are 0.28 and 0.32."""
+    star = 1.001e9 * np.exp(1j * math.radians(phase))
+    carried = complex_modulus(PAPER, 1, 0, 63e-6, 0).real
+    frequency = float(np.sqrt(star.real / carried))
+    force, lead = head_response(PAPER, frequency, star, 63e-6)
+    assert math.degrees(lead) == pytest.approx(90, abs=0.1)
+    path = write(HEADS["peaks"], f"A,-30,{frequency},{force},63e-6,{math.degrees(lead)}")
+    if passes:
+        assert reduce(path)["E_MPa"][0] == pytest.approx(1001, rel=1e-9)
+    else:
+        assert "is softer than any asphalt at -30 degC" in refusal(path)
+
+
 def test_moduli_pass_through_and_need_no_geometry(write):
     frame = reduce(
         write(HEADS["moduli"] + ",origin", MODULUS + ",synthetic", "7,15,10,18000,16,synthetic"), {}

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.optimize import least_squares
 
 from asphalt_nscd.reporting.tables.smoothness import printed
 from asphalt_nscd.rheology.burgers import Burgers
@@ -11,6 +12,7 @@ from asphalt_nscd.rheology.consistent import draws, nearest
 from asphalt_nscd.rheology.fitting import fit_burgers
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.spectrum import parameters
 from asphalt_nscd.rheology.smooth_bounds import Printed, least_scatter, log_slopes, phase_error
 
 PAPER = Path(__file__).parents[2] / "data/paper"
@@ -39,6 +41,24 @@ def test_bounds_hold_the_errors_of_smooth_data_and_ask_no_scatter_of_them(temper
     true = of_smooth_data(temperature)
     assert phase_error(true, largest=False) < true.phase_error < phase_error(true, largest=True)
     assert least_scatter(true) < 1e-6
+
+
+def test_a_weight_of_the_phase_is_that_of_its_squares_in_the_fit():
+    data, weight = SMOOTH.complex_modulus(OMEGA, 20.0), 0.3
+
+    def residual(log):
+        missed = np.log(Burgers(*np.exp(log)).complex_modulus(OMEGA) / data)
+        return np.concatenate([missed.real, np.sqrt(weight) * missed.imag])
+
+    start = np.log(list(parameters(fit_burgers(OMEGA, data).law).values()))
+    law = Burgers(*np.exp(least_squares(residual, start, xtol=1e-15, ftol=1e-15, gtol=1e-12).x))
+    errors = missed(law.complex_modulus(OMEGA), data)
+    assert (
+        least_scatter(Printed(law, OMEGA, *errors, weight))
+        < 1e-6
+        < 1e-4
+        < least_scatter(Printed(law, OMEGA, *errors))
+    )
 
 
 def test_errors_beyond_the_bounds_ask_for_scatter():

@@ -137,6 +137,23 @@ def test_wide_table_becomes_long():
     assert read["frequency_Hz"] == ["10", "1", "10"]
 
 
+@pytest.mark.parametrize("ways", ["E* ph", "E' E''", "E* tan", "E' tan", "E' ph", "E'' ph", "E'' tan"])
+def test_each_two_that_give_the_whole_modulus(ways):
+    """The triangle of 3, 4 and 5."""
+    cells = {
+        "E*": "5000",
+        "E'": "4000",
+        "E''": "3000",
+        "ph": f"{math.degrees(math.atan(0.75))}",
+        "tan": "0.75",
+    }
+    names = {"ph": "phase (deg)", "tan": "tan delta"}
+    header = ";".join(names.get(way, f"{way} (MPa)") for way in ways.split())
+    read = columns("T_C;f_Hz;" + header, "15;10;" + ";".join(cells[way] for way in ways.split()))
+    assert float(read["E_MPa"][0]) == pytest.approx(5000, rel=1e-9)
+    assert float(read["phase_deg"][0]) == pytest.approx(36.86989765, rel=1e-9)
+
+
 LONG = "T_C;f_Hz;E_MPa;phi_deg"
 
 
