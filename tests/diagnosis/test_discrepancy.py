@@ -61,7 +61,7 @@ def test_a_factor_of_distinct_points_gives_the_kernel_of_all_tests():
 
 
 def test_shares_of_a_process_make_its_unit_variance():
-    """A quarter at all frequencies, six tenths smooth over 1.5 of ln f, the rest of one condition; none common to all."""
+    """A quarter at all frequencies, six tenths smooth over 1.5 of ln f, the rest of one condition."""
     frequency, isotherm = np.tile([1.0, np.exp(1.5)], 4), np.repeat([0.0, 20.0], 4)
     table = Observations(
         np.zeros(8, int), ("A",), isotherm, frequency, np.ones(8) + 0j, np.ones(8), np.zeros(8)

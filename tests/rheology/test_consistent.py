@@ -12,8 +12,8 @@ from asphalt_nscd.rheology.consistent import draws, nearest
 from asphalt_nscd.rheology.fitting import fit_burgers
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.spectrum import parameters
 from asphalt_nscd.rheology.smooth_bounds import Printed, least_scatter, log_slopes, phase_error
+from asphalt_nscd.rheology.spectrum import parameters
 
 PAPER = Path(__file__).parents[2] / "data/paper"
 OMEGA = 2.0 * np.pi * np.array([3.0, 6.0, 10.0, 25.0, 40.0])
