@@ -183,6 +183,15 @@ def test_an_odd_modulus_and_phase_that_one_temperature_explains_say_which(export
         assert not levels.odd_temperatures(other, levels.odd(other), levels.odd_phases(other))
 
 
+@pytest.mark.parametrize("share,told", [(0.4, False), (0.6, True), (1.9, True), (2.1, False)])
+def test_temperatures_that_differ_more_than_twofold_are_not_one(monkeypatch, share, told):
+    monkeypatch.setattr(levels, "_per_kelvin", lambda *_: (-0.1, 2.0))
+    place = {"specimen": "A", "temperature_C": 20.0}
+    by_modulus, by_phase = place | {"factor": np.exp(-0.1 * share)}, place | {"phase_deg": 2.0}
+    found = levels.odd_temperatures(None, [by_modulus], [by_phase])
+    assert [one["kelvin"] for one in found] == pytest.approx([0.5 * (share + 1.0)] * told)
+
+
 @pytest.mark.parametrize(
     "kelvin,told", [((9.0, -11.0), True), ((9.0, 11.0), False), ((9.0, -3.0), False), ((-9.0, 11.0), False)]
 )

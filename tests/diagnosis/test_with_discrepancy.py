@@ -457,6 +457,24 @@ def test_misfits_of_laws_of_different_roughness_compare():
     assert rough - smooth > 10.0 and rough - smooth == pytest.approx(as_rough - as_smooth, abs=1.0)
 
 
+def test_both_of_the_channel_may_be_chance_once_in_two_hundred_tables(monkeypatch):
+    """Of a thousand draws, four may be as large as these effects and six may not."""
+    observed = campaign(
+        lambda omega, _: 1j * (3e-4 * omega - np.radians(3.4)),
+        3,
+        (0.0, 10.0, 20.0, 30.0),
+        (1.0, 3.0, 10.0, 30.0),
+    )
+    begun = fit_beside.begin(
+        *start.fit_spectrum(observed, scatter.stated(observed, 0.01, np.radians(0.3), 0.03))
+    )
+    surveyed = with_discrepancy.survey(begun, CATALOGUE)
+    for larger, named in ((4, 2), (6, 0)):
+        draws = np.repeat([0.0, 1e3], [1000 - larger, larger])
+        monkeypatch.setattr(with_discrepancy, "largest_by_chance", lambda *_, draws=draws: draws)
+        assert len(with_discrepancy._both_of_the_channel(begun, surveyed, 1000, None)) == named
+
+
 @pytest.mark.parametrize("sign,seed", [(1.0, 3), (1.0, 5), (-1.0, 4)])
 def test_an_offset_and_a_delay_that_a_discrepancy_takes_up_together_both_get_their_names(sign, seed):
     """At a few frequencies neither gains anything alone."""

@@ -80,6 +80,18 @@ def test_each_value_is_expected_where_the_mixture_given_the_others_has_its_mean(
         assert loo.chance[test, column] == pytest.approx(share @ (2.0 * student(10.0).sf(z)), rel=1e-4)
 
 
+def test_a_test_set_aside_is_judged_as_before():
+    """Its own variance is not asked by the others; it is judged by its own scatter."""
+    row, observed = 8, changed(table(), 8, np.exp(0.02 + 0.01j))
+    chances = []
+    for columns in ([], [0], [1], [0, 1]):
+        one = within_isotherm._Table(observed)
+        one.aside[row, columns] = True
+        chances.append(one.leave_one_out().chance[row])
+    as_it_is, modulus, phase, both = np.array(chances)
+    assert (modulus[0], phase[1], both[2]) == pytest.approx(as_it_is, rel=1e-6) and 0.01 < as_it_is[2] < 0.99
+
+
 def test_the_scatter_of_a_table_is_learnt():
     for scatter in ((0.006, 0.003), (0.03, 0.012)):
         found = [

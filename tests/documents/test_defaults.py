@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
+from inspect import signature
 from pathlib import Path
 from pkgutil import iter_modules
 
@@ -10,8 +11,10 @@ import click
 import pytest
 import yaml
 
+import asphalt_nscd as an
 from asphalt_nscd import cli
 from asphalt_nscd.cli._options import Of
+from asphalt_nscd.nscd.contacts.friction import solve_contacts
 
 ROOT = Path(__file__).parents[2]
 # Section of a study: the steps whose options its keys become.
@@ -45,6 +48,17 @@ def test_an_option_has_the_default_of_its_field(option):
     if option.required:
         return
     assert (None if option.default is None else option.default * option.type.unit) == pytest.approx(default)
+
+
+@pytest.mark.parametrize(
+    ("function", "step"),
+    [(an.pour, "deposit"), (an.specimen, "trim"), (an.forecast, "forecast"), (solve_contacts, "fclib")],
+)
+def test_a_function_has_the_defaults_of_the_command_line(function, step):
+    theirs = {option.name: option.default for option in command(step).params if option.name != "threads"}
+    ours = {name: one.default for name, one in signature(function).parameters.items()}
+    shared = [name for name in ours.keys() & theirs.keys() if isinstance(theirs[name], int | float)]
+    assert shared and {name: ours[name] for name in shared} == {name: theirs[name] for name in shared}
 
 
 @pytest.mark.parametrize("place", SECTIONS)

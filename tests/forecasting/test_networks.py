@@ -185,6 +185,8 @@ def test_a_shifted_binder_gives_a_law_at_few_temperatures(content, networks, tem
     law = Law(law_of_mix(made))
     found = law.complex_modulus(asked.frequency, asked.temperature)
     assert np.log(found / made.modulus) == pytest.approx(0.0, abs=0.05)
+    beside = law.complex_modulus(asked.frequency, 50.0), made.modulus_at(2 * np.pi * asked.frequency, 50.0)
+    assert np.log(beside[0] / beside[1]) == pytest.approx(0.0, abs=0.05)
 
 
 def test_maps_are_solved_once(recipe, packing, monkeypatch):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import sparse
@@ -10,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.nscd.world import Surroundings, World, WorldBonds
+from asphalt_nscd.nscd.world import Surroundings, World, WorldBonds, _Contacts
 
 LAW = BondLaw(24.3e9, 3.71e9, np.array([48.4e9]), np.array([0.773e9]))
 RADIUS, PITCH, DENSITY = 4e-3, 9e-3, 2400.0
@@ -56,6 +58,17 @@ def test_a_rigid_rotation_opens_no_bond():
     assert np.abs(turned.opening()).max() / PITCH < 1e-10
     turned.position[0] += 1e-6 * turn.apply(bonds.frame[0, 0])  # what does open one is seen along its axes
     assert turned.opening()[0] == pytest.approx(-1e-6, rel=1e-6)
+
+
+def test_only_spheres_that_no_bond_joins_meet():
+    """A cube of touching spheres, far from the floor: the broken bonds, in whatever order their ends are told."""
+    position, bonds = bar((2, 2, 2))
+    touching = world(
+        position * (2.0 * RADIUS / PITCH), replace(bonds, first=bonds.second, second=bonds.first), NOWHERE
+    )
+    for broken in range(len(bonds.first)):
+        touching.broken[:] = np.arange(len(bonds.first)) < broken
+        assert _Contacts.near(touching, touching.position).gap == pytest.approx(np.zeros(broken), abs=1e-15)
 
 
 def test_small_strains_are_those_of_small_displacements():

@@ -116,7 +116,7 @@ def test_overlaps_are_measured(tmp_path):
         ("x,y,z,radius\n1,2,3,inf\n", "sphere 1 is not finite"),
         ("x,y,z,radius\n1,2,3,400\n", "neither in m nor in mm; state the unit with --unit"),
         ("x_mm,y_mm,z_mm,radius_m\n1,2,3,0.004\n", "have different units"),
-        ("x_m,y_m,z_m,radius_m\n1,2,3,4\n", "not those of aggregate"),
+        ("x_m,y_m,z_m,radius_m\n1,2,3,0.051\n", "not those of aggregate"),
         ("1 2 3\n", "3 columns without a header"),
         ('{"law": "burgers"}', "no table of spheres, but JSON or XML"),
         ("x,y,z,radius\n0,0,0,4\n0,0,4,4\n", "overlap by 100 % of the smaller radius"),
