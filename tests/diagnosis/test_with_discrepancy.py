@@ -133,11 +133,18 @@ def test_shapes_cost_the_share_of_their_prior_that_the_tests_leave_them(monkeypa
 
     monkeypatch.setattr(with_discrepancy, "stands", stands)
     monkeypatch.setattr(with_discrepancy, "log_odds", log_odds)
-    with_discrepancy._next(begun, with_discrepancy.survey(begun, CATALOGUE), 500, np.random.default_rng(0))
-    assert gains["channel_delay"] == pytest.approx(begun.misfit - misfits["channel_delay"])
+    surveyed = with_discrepancy.survey(begun, CATALOGUE)
+    with_discrepancy._next(begun, surveyed, 500, np.random.default_rng(0))
+    whole = gains["channel_delay"]
+    assert whole == pytest.approx(begun.misfit - misfits["channel_delay"])
     cost = fit_beside.of_shapes(*fits["secondary_process"], observed)
     assert cost > 6.0
     assert gains["secondary_process"] == pytest.approx(begun.misfit - misfits["secondary_process"] - cost)
+    for left in (6.2, 5.8):  # of a gain, where 2 ln 20 is twenty times as likely
+        gains.clear()
+        monkeypatch.setattr(with_discrepancy, "of_shapes", lambda *_, left=left: whole - left)
+        with_discrepancy._next(begun, surveyed, 500, np.random.default_rng(0))
+        assert ("channel_delay" in gains) == (left > 2.0 * np.log(20.0))
 
 
 def test_the_cost_of_shapes_is_that_of_an_integral_over_them():
