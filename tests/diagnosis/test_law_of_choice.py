@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import shutil
 
 import numpy as np
 import pandas as pd
@@ -16,9 +15,7 @@ import asphalt_nscd as an
 from asphalt_nscd.cli.diagnose import command
 from asphalt_nscd.diagnosis.words.sentences import causes, law_of_the_mix
 from asphalt_nscd.diagnosis.written import three_digits
-from asphalt_nscd.exports.workbook import corrected_workbook
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.reporting.pages.diagnosis_page import PARAMETERS
 from asphalt_nscd.reporting.pages.handout import law_in_words
 from asphalt_nscd.table_import.campaign import read_campaign
@@ -111,40 +108,6 @@ def test_reported_values_are_the_same_in_json_table_workbook_and_curve(folder, c
     for name in ("E_MPa", "E_low_MPa", "E_high_MPa", "phase_deg", "phase_low_deg", "phase_high_deg"):
         assert said[name] == pytest.approx(table[name], rel=1e-9)
         assert said[name] == pytest.approx(row[head.index(name)], rel=1e-9)
-
-
-def test_the_workbook_has_charts_of_its_cells(folder):
-    book = load_workbook(folder / "corrected.xlsx")
-    charts = book["Charts"]._charts
-    assert len(charts) == 3
-    first = {series.tx.v for series in charts[0].series}
-    assert {"mix", "mix, 95 % from", "law", "law, 95 % to"} <= first
-    assert charts[0].x_axis.scaling.logBase == 10 == charts[0].y_axis.scaling.logBase
-    for chart in charts:
-        for series in chart.series:
-            for reference in (series.xVal.numRef.f, series.yVal.numRef.f):
-                sheet, cells = reference.replace("$", "").split("!")
-                values = [cell.value for row in book[sheet.strip("'")][cells] for cell in row]
-                assert all(isinstance(value, int | float) for value in values)
-
-
-def test_a_chart_shows_a_specimen_with_its_own_tests_where_the_table_alternates_them(folder, tmp_path):
-    table = pd.read_csv(folder / "corrected.csv")
-    for name in ("diagnosis.json", "reported.csv", "master_curve.csv"):
-        shutil.copy(folder / name, tmp_path)
-    table.sort_values(["temperature_C", "frequency_Hz"]).to_csv(tmp_path / "corrected.csv", index=False)
-    book = load_workbook(corrected_workbook(tmp_path))
-    sheet = book["Corrected"]
-    place = [cell.value for cell in sheet[1]].index("specimen")
-    specimens = table["specimen"].astype(str).unique()
-    drawn = [
-        one for chart in book["Charts"]._charts for one in chart.series if "Corrected" in one.yVal.numRef.f
-    ]
-    assert len(drawn) == 3 * len(specimens)
-    for series in drawn:
-        first, last = re.findall(r"\d+", series.yVal.numRef.f.split("!")[1])
-        (own,) = {str(sheet[row][place].value) for row in range(int(first), int(last) + 1)}
-        assert series.tx.v == specimen_named(own)
 
 
 def test_an_unknown_law_is_refused():

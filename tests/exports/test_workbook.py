@@ -15,6 +15,7 @@ from naive.prony import SPECTRA, assert_within
 from asphalt_nscd.exports.card import UNITS, Settings
 from asphalt_nscd.exports.export import export_law
 from asphalt_nscd.exports.law import read_law_file
+from asphalt_nscd.exports.workbook import write_sheets
 from asphalt_nscd.files.store import write_json
 
 
@@ -32,7 +33,6 @@ def test_the_workbook_comes_back(folder):
         "Prony series",
         "Measured",
         "Residuals",
-        "Charts",
     ]
     for name in list(sheets)[2:]:
         for heading in sheets[name].columns:
@@ -80,24 +80,11 @@ def test_suspect_tests_and_notes_of_a_diagnosis_stand_in_the_workbook(folder, mo
     assert "Unexplained" not in book.sheetnames
 
 
-def test_charts_read_the_rows_of_their_mix_and_print_on_a_page(tmp_path):
-    """Ten mixes: each line over its own rows, none looking like another, and no sheet wider than a page."""
-    from asphalt_nscd.exports.workbook import plots_of_mixes, write_sheets
-
-    rows = [(f"M{k}", 10.0**n, 1234.56789 * (k + 1), 12.5) for k in range(10) for n in range(3)]
-    curves = pd.DataFrame(rows, columns=["mix", "frequency_Hz", "E_MPa", "phase_deg"])
-    write_sheets(tmp_path / "t.xlsx", {"Curves": curves}, plots_of_mixes(curves, "Curves"))
-    book = openpyxl.load_workbook(tmp_path / "t.xlsx")
-    cells = book["Curves"]
-    looks = set()
-    for series in book["Charts"]._charts[0].series:
-        first, last = map(int, re.findall(r"\$(\d+)", series.yVal.numRef.f))
-        assert {cells.cell(row, 1).value for row in range(first, last + 1)} == {series.tx.v}
-        assert series.xVal.numRef.f == f"'Curves'!$B${first}:$B${last}"
-        line = series.graphicalProperties.line
-        looks.add((line.solidFill.srgbClr, line.dashStyle))
-    assert len(looks) == 10
-    assert cells["C2"].value == 1234.56789 and cells["C2"].number_format == "0.0"
-    assert all(cells.column_dimensions[letter].width >= 11 for letter in "ABCD")  # no ### for 8.5604E+07
-    for sheet in book:
-        assert (sheet.sheet_properties.pageSetUpPr.fitToPage, sheet.page_setup.fitToWidth) == (True, 1)
+def test_numbers_are_shown_short_and_a_sheet_prints_on_a_page(tmp_path):
+    write_sheets(
+        tmp_path / "t.xlsx", {"Curves": pd.DataFrame({"frequency_Hz": [1e5], "E_MPa": [1234.56789]})}
+    )
+    sheet = openpyxl.load_workbook(tmp_path / "t.xlsx")["Curves"]
+    assert sheet["B2"].value == 1234.56789 and sheet["B2"].number_format == "0.0"
+    assert all(sheet.column_dimensions[letter].width >= 11 for letter in "AB")  # no ### for 8.5604E+07
+    assert (sheet.sheet_properties.pageSetUpPr.fitToPage, sheet.page_setup.fitToWidth) == (True, 1)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -14,14 +14,13 @@ import pandas as pd
 from openpyxl import Workbook
 from openpyxl.styles import Alignment, Font
 from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
-from asphalt_nscd.exports import charts
 from asphalt_nscd.exports.card import Card
 from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import atomic_path
-from asphalt_nscd.files.words import specimen_named
 
 IN_A_DECADE = 8  # frequencies of the master curve
 STEP = 5.0  # K, of the shift factors
@@ -68,36 +67,15 @@ def write(card: Card, path: Path) -> None:
         _fill(book, "Residuals", tests.rename(columns=HEADINGS))
         if is_file(folder / "diagnosis.json"):
             _diagnosis(book, read_diagnosis([folder / "diagnosis.json"]))
-    charts.draw(book, _plots_of(card))
     _save(book, path)
 
 
-def _plots_of(card: Card) -> list[charts.Plot]:
-    """|E*| and phase of law, series and tests over frequency, and the series itself."""
-    sheet = "Master curve" if card.law.shift is not None else "Complex modulus"
-    x, stress = f"frequency at {card.law.temperature:g} °C [Hz]", card.settings.units.stress
-    plots = []
-    for quantity, unit, log in (("|E*|", "MPa", True), ("phase", "°", False)):
-        value, low, high = (
-            f"{quantity}{said} [{unit}]" for said in (" of the law", ", 95 % from", ", 95 % to")
-        )
-        lines = charts.bands("law", sheet, x, (value, low, high))
-        lines.append(charts.Line("Prony series", sheet, x, f"{quantity} of the Prony series [{unit}]"))
-        lines.append(charts.Line("tests", "Measured", x, f"measured {quantity} [{unit}]", points=True))
-        plots.append(charts.Plot(quantity, x, f"{quantity} [{unit}]", lines, log_y=log))
-    time, modulus = "relaxation time [s]", f"modulus [{stress}]"
-    branches = charts.Line("Prony terms", "Prony series", time, modulus, points=True)
-    return [*plots, charts.Plot("Prony series", time, modulus, [branches], log_y=True)]
-
-
-def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame], plots: Sequence[charts.Plot] = ()) -> None:
-    """Write tables, by the names of their sheets, and charts into one workbook, equal whenever it is written."""
+def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame]) -> None:
+    """Write tables, by the names of their sheets, into one workbook, equal whenever it is written."""
     book = Workbook()
     book.remove(book.worksheets[0])
     for title, frame in sheets.items():
         _fill(book, title, frame)
-    if plots:
-        charts.draw(book, plots)
     with atomic_path(path) as temporary:
         _save(book, temporary)
 
@@ -107,10 +85,8 @@ def corrected_workbook(folder: Path) -> Path:
     # A specimen called 01 is not 1.
     tests = pd.read_csv(folder / "corrected.csv", dtype={"specimen": str})
     used = tests["status"] == "used"
-    # A chart takes a specimen's rows from its first to its last; NCAT's tables alternate specimens.
-    corrected = tests[used].sort_values("specimen", key=lambda one: pd.factorize(one)[0], kind="stable")
     sheets = {
-        "Corrected": corrected.drop(columns="status"),
+        "Corrected": tests[used].drop(columns="status"),
         "Left out": tests[~used].drop(columns=["E_MPa", "phase_deg", "corrected_for"]),
         "Mix": pd.read_csv(folder / "reported.csv"),
         "Master curve": pd.read_csv(folder / "master_curve.csv"),
@@ -131,56 +107,8 @@ def corrected_workbook(folder: Path) -> Path:
         )
         sheets["Laws compared"] = pd.DataFrame(content["laws"])
     filled = {name: table for name, table in sheets.items() if len(table)}
-    write_sheets(folder / "corrected.xlsx", filled, _plots_of_mix(corrected))
+    write_sheets(folder / "corrected.xlsx", filled)
     return folder / "corrected.xlsx"
-
-
-def _plots_of_mix(tests: pd.DataFrame) -> list[charts.Plot]:
-    """The mix and its law with their bands and the corrected tests over frequency, and the Black diagram."""
-    # Rows of a sheet count from 1, and the first one holds the headings.
-    places = [number for number, _ in enumerate(tests["specimen"], start=2)]
-    rows = pd.Series(places).groupby(tests["specimen"].to_numpy(), sort=False).agg(["min", "max"])
-    plots = []
-    for stem, unit, log in (("E", "MPa", True), ("phase", "deg", False)):
-        lines = []
-        for name, column in (("mix", stem), ("law", f"law_{stem}")):
-            ends = (f"{column}_{unit}", f"{column}_low_{unit}", f"{column}_high_{unit}")
-            lines += charts.bands(name, "Master curve", "frequency_Hz", ends)
-        value = f"{stem}_{unit}"
-        lines += [
-            charts.Line(
-                specimen_named(name), "Corrected", "reduced_frequency_Hz", value, (low, high), points=True
-            )
-            for name, low, high in rows.itertuples()
-        ]
-        title = "|E*| [MPa]" if stem == "E" else "phase [°]"
-        plots.append(charts.Plot(title, "reduced frequency [Hz]", title, lines, log_y=log))
-    black = [
-        charts.Line(specimen_named(name), "Corrected", "phase_deg", "E_MPa", (low, high), points=True)
-        for name, low, high in rows.itertuples()
-    ]
-    black.append(charts.Line("mix", "Master curve", "phase_deg", "E_MPa"))
-    return [*plots, charts.Plot("Black diagram", "phase [°]", "|E*| [MPa]", black, log_x=False, log_y=True)]
-
-
-def plots_of_mixes(curves: pd.DataFrame, sheet: str) -> list[charts.Plot]:
-    """Two charts, |E*| and phase of each mix over frequency; rows of a mix must stand together in `curves`."""
-    rows = (
-        pd.Series(range(2, len(curves) + 2)).groupby(curves["mix"].to_numpy(), sort=False).agg(["min", "max"])
-    )
-    return [
-        charts.Plot(
-            title,
-            "frequency [Hz]",
-            title,
-            [
-                charts.Line(str(name), sheet, "frequency_Hz", column, (low, high))
-                for name, low, high in rows.itertuples()
-            ],
-            log_y=column == "E_MPa",
-        )
-        for title, column in (("|E*| at 15 °C [MPa]", "E_MPa"), ("phase at 15 °C [°]", "phase_deg"))
-    ]
 
 
 def _law(card: Card) -> pd.DataFrame:
@@ -329,7 +257,16 @@ def _fill(book: Workbook, title: str, frame: pd.DataFrame) -> None:
         for (cell,) in sheet.iter_rows(min_row=2, max_col=1):
             cell.alignment = Alignment(wrap_text=True, vertical="top")
     sheet.freeze_panes = "A2"
-    charts.fit_to_page(sheet, landscape=len(frame.columns) > COLUMNS_UPRIGHT)
+    _fit_to_page(sheet, landscape=len(frame.columns) > COLUMNS_UPRIGHT)
+
+
+def _fit_to_page(sheet: Worksheet, landscape: bool) -> None:
+    """Print all columns within the width of an A4 page."""
+    sheet.sheet_properties.pageSetUpPr = PageSetupProperties(fitToPage=True)
+    sheet.page_setup.paperSize = sheet.PAPERSIZE_A4
+    sheet.page_setup.orientation = "landscape" if landscape else "portrait"
+    # A height of 0 pages: as many as the rows take.
+    sheet.page_setup.fitToWidth, sheet.page_setup.fitToHeight = 1, 0
 
 
 def _cell(value: Any) -> Any:
