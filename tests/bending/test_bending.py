@@ -276,31 +276,6 @@ def test_result_file(folder, model):
     assert arrays["broken"].size == 0
 
 
-def test_a_stopped_test_goes_on(folder):
-    """Killed while it runs, and the same call again: the same file; the checkpoint is gone then."""
-    common = 15.0, small(amplitude=8e-5), Numerics(DT, 10)
-
-    def stop(done, total):
-        if done == 150:
-            raise KeyboardInterrupt
-
-    kept = folder / "kept.h5"
-    resumed = files(folder, "a.h5", checkpoint=kept, checkpoint_every=40)
-    with pytest.raises(KeyboardInterrupt):
-        simulate(resumed, *common, RunOptions(stop))
-    assert not (folder / "a.h5").exists() and load(kept, "checkpoint").arrays["force"].size == 120
-    with pytest.raises(InputError, match="belongs to another run"):
-        simulate(resumed, *common[:2], Numerics(DT, 10, "condensed"))
-    simulate(resumed, *common)
-    assert not kept.exists()
-    simulate(files(folder, "b.h5"), *common, RunOptions(energy=True))
-    one, whole = (load(folder / name, "test") for name in ("a.h5", "b.h5"))
-    for name, array in whole.arrays.items():
-        assert one.arrays[name].tobytes() == array.tobytes()
-    del one.attributes["cpu_s"], whole.attributes["cpu_s"]
-    assert one.attributes == whole.attributes and whole.attributes["broken_bonds"] > 0
-
-
 def test_velocity_profile(folder, model, beam):
     """Mean velocities of layers against those of the spheres in the full system."""
     simulate(files(folder, "profile.h5"), 15.0, small(1.2), Numerics(DT, 0))
@@ -378,8 +353,6 @@ def test_tests_of_one_command_are_those_made_one_by_one(folder):
     for wrong in (command(frequencies, laws, together[:1]), command(frequencies[:1], laws, together[:1])):
         with pytest.raises(click.UsageError, match="give an --output for each frequency"):
             group.main(wrong, standalone_mode=False)
-    with pytest.raises(click.UsageError, match="--checkpoint keeps one test"):
-        group.main([*command(frequencies, laws, together), "--checkpoint", "c.h5"], standalone_mode=False)
 
 
 def test_frames_are_the_same_by_the_reduced_and_by_the_full_equations(model):
@@ -399,7 +372,7 @@ def test_broken_bonds_carry_nothing_in_a_frame(model):
 
 
 def test_frames_of_methods_that_keep_none_are_refused(model):
-    with pytest.raises(InputError, match="frames: kept of the methods reduced and condensed"):
+    with pytest.raises(InputError, match="method harmonic keeps no frames"):
         run(model, "harmonic", frames=2)
 
 

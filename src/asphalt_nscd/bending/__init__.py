@@ -1,1 +1,1 @@
-"""One test on one specimen: rig, layers, steps, checkpoints, fatigue, the table of tests."""
+"""One test on one specimen: rig, layers, steps, fatigue, the table of tests."""

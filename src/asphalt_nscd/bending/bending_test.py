@@ -12,7 +12,6 @@ import numpy as np
 
 from asphalt_nscd.bending import runs
 from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions, require_possible
-from asphalt_nscd.bending.checkpoint import Checkpoint, digest
 from asphalt_nscd.bending.excerpt import ModelExcerpt, read_excerpt
 from asphalt_nscd.bending.layers import LayerHeights
 from asphalt_nscd.bending.rig import Rig, read_rig
@@ -129,8 +128,8 @@ def read_subject(model_file: str | Path, excerpt_file: str | Path | None = None)
 class TestFiles:
     """Files that a test reads and writes.
 
-    `model`, `output`, `checkpoint` are HDF5 files; `law` (of the bonds) and `rig` are JSON; without `rig` the rig is
-    ideal. `checkpoint_every` counts steps; `law_source` is kept with the result.
+    `model` and `output` are HDF5 files; `law` (of the bonds) and `rig` are JSON; without `rig` the rig is ideal.
+    `law_source` is kept with the result.
     """
 
     __test__ = False  # not one of pytest's
@@ -139,28 +138,7 @@ class TestFiles:
     law: str | Path
     output: str | Path
     rig: str | Path | None = None
-    checkpoint: str | Path | None = None
-    checkpoint_every: int = 100
     law_source: str = ""
-
-    def checkpoint_of(self, case: LoadCase, numerics: Numerics) -> Checkpoint | None:
-        """Checkpoint that names all that makes it this run; None without a file for it."""
-        if self.checkpoint is None:
-            return None
-        run: dict[str, float | int | str] = {
-            # by content: a file made anew under its old name is another run
-            "model": digest(self.model),
-            "law": digest(self.law),
-            "frequency_Hz": case.frequency,
-            "amplitude": f"{case.amplitude} {'N' if case.by_force else 'm'}",
-            "cycles": case.cycles,
-            "time_step_s": numerics.time_step,
-            "rest_steps": numerics.rest_steps,
-            "method": numerics.method,
-            "scheme": numerics.scheme,
-            "rig": "" if self.rig is None else digest(self.rig),
-        }
-        return Checkpoint(Path(self.checkpoint), self.checkpoint_every, run)
 
 
 def simulate(
@@ -179,15 +157,11 @@ def simulate(
     law = read_bond_law(files.law, temperature, [case.frequency])
     case = replace(case, rig=Rig() if files.rig is None else read_rig(files.rig))
     model = read_subject(files.model) if model is None else model
-    options = replace(options, checkpoint=files.checkpoint_of(case, numerics))
     arrays, columns = outcome(model, law, temperature, case, numerics, options)
     columns["law_source"] = files.law_source
     if files.rig is not None:
         columns |= case.rig.columns()
     save(files.output, "test", arrays, columns)
-    # only now: a run killed while its result is written can still go on
-    if options.checkpoint is not None:
-        options.checkpoint.drop()
     return columns
 
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.bending.checkpoint import Checkpoint
 from asphalt_nscd.bending.rig import Rig
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range, Ranged, one_of, within
@@ -183,12 +182,10 @@ class RunOptions:
     `progress` is called with (steps done, steps in all); `most_broken` and `most_closed` are the shares of bonds broken
     and of gaps closed at once beyond which the run ends with a message. `energy` keeps the energy account of a reduced
     run too; `frames` instants of the last cycle are kept with all spheres and bonds. Either makes the steps one by one.
-    A `checkpoint`, from which a run goes on, is for "reduced" and "condensed".
     """
 
     progress: Progress = lambda done, total: None
     energy: bool = False
-    checkpoint: Checkpoint | None = None
     frames: int = 0
     most_broken: float = 1.0
     most_closed: float = 0.1
@@ -257,7 +254,7 @@ class Load(Ranged):
 
 
 def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) -> None:
-    """Refuse too many steps, and a rig, scheme, checkpoint or frames that the method cannot do."""
+    """Refuse too many steps, and a rig, scheme or frames that the method cannot do."""
     method, scheme, count = numerics.method, numerics.scheme, numerics.steps(case) + numerics.rest_steps
     if count > MOST_STEPS:
         raise InputError(
@@ -276,12 +273,8 @@ def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) ->
         )
     if scheme != "euler" and not steps:
         raise InputError(f"method {method} has no scheme {scheme!r}; choose the method reduced or condensed.")
-    if options.checkpoint is not None and not steps:
-        raise InputError(f"method {method} keeps no checkpoint; choose the method reduced or condensed.")
-    if options.frames and (not steps or options.checkpoint is not None):
-        raise InputError(
-            "frames: kept of the methods reduced and condensed, without a checkpoint; leave one out."
-        )
+    if options.frames and not steps:
+        raise InputError(f"method {method} keeps no frames; choose the method reduced or condensed.")
     if method == "sweeps" and not case.rig.is_rigid:
         raise InputError(
             "rig: the method sweeps cannot simulate devices at the head; choose the method reduced."

@@ -1,4 +1,4 @@
-"""How each method follows the actuator through a test, from rest or from a checkpoint.
+"""How each method follows the actuator through a test, from rest.
 
 Sparse matrices are imported where a run needs them: importing them takes as long as most reduced tests.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,16 +22,13 @@ from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, Reduce
 from asphalt_nscd.nscd.stepping.scheme import Scheme
 
 if TYPE_CHECKING:
-    from asphalt_nscd.bending.checkpoint import Checkpoint
     from asphalt_nscd.bending.excerpt import ModelExcerpt
     from asphalt_nscd.bending.model import Model
     from asphalt_nscd.nscd.bonds.head import HeadDevices
     from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
     from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
-    from asphalt_nscd.nscd.stepping.integrator import March
 
 Vector = NDArray[np.float64]
-Arrays = dict[str, NDArray[Any]]
 Details = dict[str, float | int]
 RESIDUAL_TOLERANCE = 1e-6  # of the full equations, relative to the load of the head
 
@@ -61,7 +58,7 @@ class Histories:
     """What a run gives, a row for each step, those at rest included.
 
     `force` (n,) of the actuator in N; `velocity` (n, l), means of the layers, in m/s; `broken` in the order of
-    breaking; `full_steps` of the `done` steps were made by the full system. `residual` is that of the full equations,
+    breaking; `full_steps` were made by the full system. `residual` is that of the full equations,
     of "sweeps" the relative change of the last sweep, and NaN if not checked.
     """
 
@@ -71,7 +68,6 @@ class Histories:
     residual: float = np.nan
     details: Details = field(default_factory=dict)
     full_steps: int = 0
-    done: int = 0
     frames: list[Frame] = field(default_factory=list)
 
 
@@ -80,10 +76,10 @@ def reduced(
 ) -> Histories:
     """Follow the actuator by the reduced system, and by the full one from where it is needed.
 
-    The compiled kernel makes all steps in one call; an account, frames, a checkpoint or another scheme than implicit
-    Euler needs them one by one.
+    The compiled kernel makes all steps in one call; an account, frames or another scheme than implicit Euler needs them
+    one by one.
     """
-    if numerics.scheme == "euler" and not (options.energy or options.frames) and options.checkpoint is None:
+    if numerics.scheme == "euler" and not (options.energy or options.frames):
         return by_path(model, law, case.rig, numerics.time_step, numerics.driven(case), options)
     # a two-step scheme is an implicit Euler step of length dt / a from an extrapolated state
     stepper = _reduced_stepper(model.whole, law, numerics.time_step / _scheme(case, numerics).a, case.rig)
@@ -125,9 +121,6 @@ def condensed(
     from asphalt_nscd.nscd.stepping.condensed import CondensedState
 
     state = CondensedState.at_rest(model.system, law)
-    if options.checkpoint and (kept := options.checkpoint.resume()):
-        # before the stepper is made, which factorises for the bonds that are left
-        state.broken = kept["march/broken"].tolist()
     dt = numerics.time_step / _scheme(case, numerics).a
     stepper = _full_stepper(model, law, dt, state, case.rig)
     return _one_by_one(stepper, model, law, (case, numerics), options)
@@ -241,8 +234,7 @@ def _one_by_one(
     what: tuple[LoadCase, Numerics],
     options: RunOptions,
 ) -> Histories:
-    """Steps of any scheme with their energy account, from rest or from the checkpoint."""
-    from asphalt_nscd.nscd.stepping.condensed import CondensedState
+    """Steps of any scheme with their energy account, from rest."""
     from asphalt_nscd.nscd.stepping.integrator import March
 
     case, numerics = what
@@ -250,19 +242,9 @@ def _one_by_one(
     march = March(stepper, _scheme(case, numerics), law, numerics.time_step)
     run = _empty(driven.size, layers)
     small = stepper if isinstance(stepper, ReducedStepper) else None
-    if options.checkpoint and (kept := options.checkpoint.resume()):
-        if small is not None:
-            small.put(_below("reduced/", kept))
-            if kept["full_steps"] > 0:
-                state = CondensedState.at_rest(model.system, law)
-                state.broken = kept["march/broken"].tolist()
-                march.stepper = _full_stepper(model, law, stepper.dt, state, case.rig)
-        march.put(_below("march/", kept))
-        run.done, run.full_steps = kept["force"].size, kept["full_steps"].item()
-        run.force[: run.done], run.velocity[: run.done] = kept["force"], kept["velocity"]
     framed = set((numerics.rest_steps + numerics.framed(case, options.frames)).tolist())
     along = np.empty((0, 0)) if small is None else layers.mean @ small.model.basis
-    for n in range(run.done, driven.size):
+    for n in range(driven.size):
         try:
             run.force[n] = march.move_to(driven[n])
         except FullSystemNeeded:
@@ -283,13 +265,10 @@ def _one_by_one(
             small.certify(full)
             run.velocity[n] = layers.mean @ full.state.velocity
             run.full_steps += 1
-        run.done += 1
         if n in framed:
             moving = march.stepper
             state = moving.full_state() if isinstance(moving, ReducedStepper) else moving.state
             run.frames.append(Frame.of(model, state))
-        if options.checkpoint and options.checkpoint.is_due(run.done, driven.size):
-            _keep(options.checkpoint, run, march, small)
         options.progress(n + 1, driven.size)
     run.broken, run.details = march.stepper.state.broken, march.account.sums.columns()
     return run
@@ -297,15 +276,3 @@ def _one_by_one(
 
 def _empty(steps: int, layers: Layers) -> Histories:
     return Histories(np.empty(steps), np.empty((steps, layers.height.size)))
-
-
-def _keep(checkpoint: Checkpoint, run: Histories, march: March, small: ReducedStepper | None) -> None:
-    arrays = {f"march/{name}": value for name, value in march.arrays().items()}
-    if small is not None:
-        arrays |= {f"reduced/{name}": value for name, value in small.arrays().items()}
-    arrays |= {"force": run.force[: run.done], "velocity": run.velocity[: run.done]}
-    checkpoint.keep(arrays | {"full_steps": np.asarray(run.full_steps)})
-
-
-def _below(prefix: str, arrays: Arrays) -> Arrays:
-    return {name.removeprefix(prefix): a for name, a in arrays.items() if name.startswith(prefix)}

@@ -110,15 +110,6 @@ _NUMERICS = "bending.case.Numerics"
     help="Instants of the last cycle of which to keep the motion of all spheres and the forces of all bonds; 24 bytes "
     "a sphere and 12 a bond each, before they are packed.",
 )
-@click.option(
-    "--checkpoint",
-    default=None,
-    type=_options.File,
-    help="Go on from this file if it stands, and keep the run in it; removed once the result is written.",
-)
-@click.option(
-    "--checkpoint-every", default=100, type=click.IntRange(1), help="Steps between two checkpoints."
-)
 @_options.outputs
 @_options.gather(
     "case", amplitude_m="amplitude_m", amplitude_N="amplitude_n", cycles="cycles", frames="frames"
@@ -136,8 +127,6 @@ _NUMERICS = "bending.case.Numerics"
     "files",
     model="model",
     rig="rig",
-    checkpoint="checkpoint",
-    checkpoint_every="checkpoint_every",
     law_source="law_source",
 )
 @_options.gather(
@@ -160,8 +149,6 @@ def command(
             f"{count} x --frequency-hz, {len(laws)} x --law and {len(outputs)} x --output; give an --output "
             "for each frequency, and one --law or one for each."
         )
-    if files["checkpoint"] is not None and count > 1:
-        raise click.UsageError("--checkpoint keeps one test; give one --frequency-hz.")
     from asphalt_nscd.bending.bending_test import TestFiles, damage, read_subject, simulate, told
     from asphalt_nscd.bending.case import Load, Numerics, RunOptions
     from asphalt_nscd.measurements.kinds import usual_steps_per_cycle

@@ -137,23 +137,6 @@ def test_directions_are_found_when_a_bond_without_them_breaks(beam_system, quick
     np.testing.assert_allclose(force, reference, rtol=0, atol=1e-7 * np.abs(reference).max())
 
 
-def test_directions_found_on_the_way_survive_a_checkpoint(beam_system, quick_law, basis, stand_by):
-    none = keeping(stand_by, beam_system, basis, [])
-    never_stopped = run(beam_system, quick_law, basis, none)[1]
-    stepper, again = (
-        ReducedStepper(none.model(beam_system, basis, []), quick_law, DT, 1e-6, stand_by=none)
-        for _ in range(2)
-    )
-    done = 0
-    while not stepper.state.broken:
-        stepper.run(DRIVEN[done : done + 10])
-        done += 10
-    again.put({name: value.copy() for name, value in stepper.arrays().items()})
-    np.testing.assert_array_equal(again._stand_by.bonds, stepper._stand_by.bonds)
-    np.testing.assert_array_equal(again.run(DRIVEN[done:])[0], stepper.run(DRIVEN[done:])[0])
-    assert again.state.broken == never_stopped.state.broken
-
-
 def test_through_a_file(stand_by, tmp_path):
     save(tmp_path / "a.h5", "stand-by", stand_by.arrays(), {})
     again = StandBy.from_arrays(load(tmp_path / "a.h5", "stand-by").arrays)

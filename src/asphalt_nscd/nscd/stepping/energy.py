@@ -70,10 +70,6 @@ class EnergyAccount:
         self.law, self.sums = law, Energies()
         self._broken = 0
 
-    def resume(self, sums: Energies, broken: int) -> None:
-        """Go on from the sums of all steps before and the number of bonds broken, as a checkpoint holds them."""
-        self.sums, self._broken = sums, broken
-
     def count(
         self, stepper: Any, dt: float, force: float, before: History, base: History, after: History
     ) -> None:

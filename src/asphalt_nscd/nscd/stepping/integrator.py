@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import astuple
-
-import numpy as np
-
 from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
-from asphalt_nscd.nscd.stepping.energy import Energies, EnergyAccount
+from asphalt_nscd.nscd.stepping.energy import EnergyAccount
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
-from asphalt_nscd.nscd.stepping.scheme import VARIABLES, History, Scheme
+from asphalt_nscd.nscd.stepping.scheme import History, Scheme
 
 Stepper = CondensedStepper | ReducedStepper
 
@@ -55,23 +51,6 @@ class March:
 
         self.earlier, self.now = lifted(self.earlier), lifted(self.now)
         self.stepper = full
-
-    def arrays(self) -> dict[str, np.ndarray]:
-        """Present, step before and account, by name, for a checkpoint."""
-        found = {"broken": np.array(self.stepper.state.broken, np.int64)}
-        for when in ("now", "earlier"):
-            history = getattr(self, when)
-            found |= {f"{when}/{name}": value for name, value in history.values.items()}
-            found[f"{when}/actuator"] = np.asarray(history.actuator)
-        return found | {"energies": np.array([float(value) for value in astuple(self.account.sums)])}
-
-    def put(self, arrays: dict[str, np.ndarray]) -> None:
-        """Go on where the March that gave `arrays` stood; `stepper` is that of the time."""
-        for when in ("now", "earlier"):
-            values = {name: arrays[f"{when}/{name}"] for name in VARIABLES}
-            setattr(self, when, History(values, arrays[f"{when}/actuator"].item()))
-        self.now.put(self.stepper.state)
-        self.account.resume(Energies(*arrays["energies"].tolist()), arrays["broken"].size)
 
     def _widen(self) -> None:
         state = self.stepper.state

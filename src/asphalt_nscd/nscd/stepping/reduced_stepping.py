@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
@@ -39,17 +39,6 @@ MOST_ENRICHMENTS = 30
 
 FAR = 16.0
 """Growth of the envelope as long as no bond comes near yield within it."""
-
-_PROJECTED = ("mass", "stiffness", "load", "residual_factor", "head_norm", "load_norm")
-_REACHED = (
-    "maxima",
-    "may_yield",
-    "may_close",
-    "reached_sigma",
-    "reached_motion",
-    "sigma_envelope",
-    "motion_envelope",
-)
 
 
 @dataclass
@@ -179,38 +168,6 @@ class ReducedStepper:
             kelvin=state.kelvin @ opening.T,
             broken=list(state.broken),
         )
-
-    def arrays(self) -> dict[str, np.ndarray]:
-        """All that it has become since it was made, by name, for a checkpoint."""
-        found = {name: getattr(self.model, name) for name in ("basis", *_PROJECTED)}
-        found |= {name: getattr(self.state, name) for name in ("displacement", "velocity", "sigma", "kelvin")}
-        found |= {name: getattr(self, "_" + name) for name in _REACHED}
-        found |= {"broken": np.array(self.state.broken, np.int64), "enrichments": self.enrichments}
-        found |= {"smallest_gap": self._smallest_gap, "stands_by": self._stand_by is not None}
-        found |= {"standing_by": np.empty(0, int) if self._stand_by is None else self._stand_by.bonds}
-        return {name: np.asarray(value) for name, value in found.items()}
-
-    def put(self, arrays: dict[str, np.ndarray]) -> None:
-        """Make a new stepper what the one that gave `arrays` was."""
-        from asphalt_nscd.nscd.stepping.projection import Projection
-        from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
-
-        broken = arrays["broken"].tolist()
-        small: dict[str, Any] = {name: arrays[name] for name in _PROJECTED}
-        small |= {name: small[name].item() for name in ("head_norm", "load_norm")}
-        small |= {"opening": np.empty((0, small["load"].size)), "weight": np.empty(0)}
-        self._part = ReducedModel(self.model.system, arrays["basis"], broken, Projection(**small))
-        coordinates = {name: arrays[name] for name in ("displacement", "velocity", "sigma", "kelvin")}
-        self.state = ReducedState(**coordinates, broken=broken)
-        for name in _REACHED:
-            setattr(self, "_" + name, arrays[name])
-        self.enrichments, self._smallest_gap = arrays["enrichments"].item(), arrays["smallest_gap"].item()
-        ready = arrays["standing_by"]
-        if not arrays["stands_by"]:
-            self._stand_by = None
-        elif self._stand_by is not None and not np.isin(ready, self._stand_by.bonds).all():
-            self._stand_by_for(ready.tolist(), 0)
-        self._look_at()
 
     def certify(self, full: CondensedStepper) -> None:
         """Count the last step of the full system in the certificate; ArithmeticError where it misses its equations."""
