@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import click
 import numpy as np
@@ -37,7 +37,7 @@ def folder(tmp_path_factory, beam):
     folder = tmp_path_factory.mktemp("bending")
     arrays = {"position": beam.position, "radius": beam.radius}
     arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
+    attributes = beam.geometry.attributes() | {"area": beam.area}
     save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
     for head in ("free", "blocked"):
         condense(folder / "beam.h5", Bonds(head), folder / f"{head}.h5")

@@ -32,7 +32,7 @@ def folder(tmp_path_factory, beam):
     folder = tmp_path_factory.mktemp("rig")
     arrays = {"position": beam.position, "radius": beam.radius}
     arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
+    attributes = beam.geometry.attributes() | {"area": beam.area}
     save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
     condense(folder / "beam.h5", Bonds(), folder / "model.h5")
     write_chain(folder / "law.json", CHAIN, source="", temperature=15, error=0.0, lowest_hz=3, highest_hz=40)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
-
 import numpy as np
 import pytest
 
@@ -17,7 +15,7 @@ def test(beam, tmp_path_factory):
     path = tmp_path_factory.mktemp("bonds") / "beam.h5"
     arrays = {"position": beam.position, "radius": beam.radius}
     arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
+    attributes = beam.geometry.attributes() | {"area": beam.area}
     save(path, "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
     law = an.Law.burgers(
         Em_Pa=24.3e9, eta_m_Pa_s=3.71e11, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e11, temperature_C=15

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ def folder(tmp_path_factory, beam):
     folder = tmp_path_factory.mktemp("excerpt")
     arrays = {"position": beam.position, "radius": beam.radius}
     arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
+    attributes = beam.geometry.attributes() | {"area": beam.area}
     save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
     with pytest.MonkeyPatch.context() as patch:
         for name, count in (("LEADING", 6), ("OTHERS", 1), ("NARROW", 2)):

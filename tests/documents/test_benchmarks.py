@@ -6,7 +6,6 @@ import os
 import re
 import subprocess
 import sys
-from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -145,7 +144,7 @@ def test_stages_of_growth(tmp_path, beam):
     """A test on a specimen: each stage with its cost, and the modulus beside that of the law."""
     arrays = {"position": beam.position, "radius": beam.radius}
     arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = {name: float(value) for name, value in asdict(beam.geometry).items()}
+    attributes = beam.geometry.attributes() | {"area": beam.area}
     save(tmp_path / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
     write_law(
         tmp_path / "law.json", Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9), source="fitted", temperature=15.0

@@ -53,8 +53,6 @@ def test_keys_say_the_test_and_files_keep_it():
     for shape, keys in ((cylinder, AMPT), (trapezoid, TRAPEZOID)):
         assert shape_of(shape.attributes()) == shape
         assert shape.keys() == pytest.approx(keys)
-    older = {name: value for name, value in trapezoid.attributes().items() if name != "geometry"}
-    assert shape_of(older) == trapezoid
     for wrong, sentence in (
         (AMPT | {"d_mm": 0.1}, r"d_mm = 0.1 is not a number from 10 to 300; give the diameter in mm"),
         (AMPT | {"e_mm": 25}, "key 'e_mm' is not known; give exactly d_mm, h_mm, mass_kg, mobile_mass_kg"),

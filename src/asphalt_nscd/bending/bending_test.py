@@ -267,10 +267,6 @@ def _modulus(shape: Shape, frequency: float, response: Response) -> complex:
 
 def _framed(model: Model, times: np.ndarray, frames: Sequence[runs.Frame]) -> dict[str, np.ndarray]:
     """Spheres and bonds as they stand, and in single precision what they do at each time (f,) [s]."""
-    if "area_m2" not in model.shape:
-        raise InputError(
-            f"model of {model.name}: of an older version, without all of its bonds; run `condense` again."
-        )
     n = model.spheres
 
     def of_spheres(motion: np.ndarray) -> np.ndarray:

@@ -75,8 +75,6 @@ class Model:
 
     def require_whole(self, broken: Sequence[int]) -> None:
         """Refuse a specimen in two pieces: where no path of the bonds that are left joins all plates."""
-        if not self.shape:  # of a file of an older version
-            return
         left = np.ones(self.bonds, bool)
         left[broken] = False
         plates = len(self.geometry.plates)

@@ -24,8 +24,8 @@ LIMITS = Geometry.limits  # of those measured in bending, which alone are reduce
 
 
 def shape_of(attributes: Mapping[str, Any]) -> Shape:
-    """The geometry that `Shape.attributes` of a file said; in older files a trapezoid."""
-    shape = SHAPES[attributes.get("geometry", Geometry.test)]
+    """The geometry that `Shape.attributes` of a file said."""
+    shape = SHAPES[attributes["geometry"]]
     return shape(**{field.name: attributes[field.name] for field in fields(shape)})  # type: ignore[arg-type]
 
 

@@ -115,16 +115,13 @@ def _tests(table: Table, tests: Sequence[str]) -> tuple[pd.DataFrame, str]:
 
 
 def read_reduced(path: str | Path) -> pd.DataFrame:
-    """Read a reduced table; specimen ids are strings, absent values NaN."""
+    """Read specimen (text), temperature, frequency, origin and modulus of each test of a reduced table."""
     table = read_csv(path)
     frame = _read_keys(table)
     table.require(FORMS["moduli"])
     for name in FORMS["moduli"]:
         frame[name] = table.numbers(name, LIMITS[name])
-    for name in REDUCED_COLUMNS:
-        if name not in frame:
-            frame[name] = table.numbers_or_nan(name)
-    return frame.reindex(columns=REDUCED_COLUMNS)
+    return frame
 
 
 def _read_keys(table: Table, tests: Sequence[str] = KEYS) -> pd.DataFrame:

@@ -100,8 +100,8 @@ def _series(record: Record, output: Path) -> str:
     kept = _kept(record)
     if "strength_N" not in kept:
         raise InputError(
-            f"{output}: the test holds no motion of spheres, or an older version wrote it; simulate it again with "
-            "--frames 24 (in Python Load(frames=24)), or give --format csv."
+            f"{output}: the test holds no motion of spheres; simulate it again with --frames 24 (in Python "
+            "Load(frames=24)), or give --format csv."
         )
     ends = np.column_stack([kept["first"], kept["second"]])
     place, lines, plate = _lines(kept["position_m"], ends, kept["point_m"])

@@ -87,5 +87,5 @@ def specimen_of(content: Content) -> Specimen:
         density=attributes["density"],
         network=Network(**{name: arrays[f"network/{name}"] for name in Network.__dataclass_fields__}),
         loose_grains=attributes["loose_grains"],
-        area=attributes.get("area", "paper"),  # files of older versions know no other
+        area=attributes["area"],
     )

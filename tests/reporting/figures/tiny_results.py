@@ -132,7 +132,15 @@ class Results:
             "network/second": np.array([1, 2, 4]),
             "network/point": np.array([[0.0015, 0.0002, 0.03], [0.0, 0.001, 0.03], [0.0, 0.0, 0.0]]),
         }
-        shape = {"b": 0.01, "B": 0.02, "e": 0.01, "h": 0.06, "mass": 0.021, "mobile_mass": 0.008}
+        shape = {
+            "geometry": "bending",
+            "b": 0.01,
+            "B": 0.02,
+            "e": 0.01,
+            "h": 0.06,
+            "mass": 0.021,
+            "mobile_mass": 0.008,
+        }
         save(path := self.folder / "specimen.h5", "specimen", arrays, shape | {"volume_reduction": 0.1})
         return [path]
 
