@@ -158,37 +158,6 @@ def test_stages_of_growth(tmp_path, beam):
     assert 0.2 < ratio < 2.0
 
 
-def test_pouring_on_two_threads_beside_one(tmp_path):
-    """A row in the rain and one under the wall; the numbers are the same or the script fails."""
-    (tmp_path / "counts.csv").write_text("diameter_mm,count\n3,100\n5,20\n")
-    run(tmp_path, "threads.py", 240, "counts.csv", "--output", "rows.csv")
-    rows = pd.read_csv(tmp_path / "rows.csv")
-    assert rows.work.tolist() == ["falling", "vibrating"]
-    assert (rows.threads == 2).all() and (rows.spheres == 240).all() and (rows.wall_s_of_one > 0.0).all()
-    assert ((rows.lowest <= rows.speed_up) & (rows.speed_up <= rows.highest)).all()
-
-
-def test_a_million_spheres_are_estimated_by_exponents_and_threads(tmp_path):
-    """Pouring grows by 5^1.5 and is 1.6 times as fast on two threads: a quarter of it is serial."""
-    stages = ["pour and vibrate", "trim and bond, paper", "condense, paper", "one test, paper"]
-    layer = pd.DataFrame(
-        {"stage": stages, "threads": [2.0, None, None, None], "wall_s": 3600.0, "memory_MB": 1024.0}
-    )
-    alike = ["pour and settle", "vibrate", "trim and bond", "condense", "reduced, a cycle"]
-    growth = pd.DataFrame({"stage": alike, "last_exponent_of_time": [1.5, 1.0, 1.0, 2.0, 1.0]})
-    growth["last_exponent_of_memory"] = [0.0, 1.0, 1.0, 1.0, 1.0]
-    threads = pd.DataFrame({"threads": 2, "speed_up": [1.6, 1.9]})
-    for name, table in (("layer", layer), ("growth", growth), ("threads", threads)):
-        table.to_csv(tmp_path / f"{name}.csv", index=False)
-    tell(tmp_path, "million.py", "layer.csv", "growth.csv", "threads.csv", "--output", "million.csv")
-    found = pd.read_csv(tmp_path / "million.csv").set_index("stage")
-    pouring = found.loc["pour and vibrate"]
-    assert pouring.speed_up == pytest.approx(1.0 / (0.25 + 0.75 / 32))
-    assert pouring.wall_h == pytest.approx(5.0**1.5 * 1.6 / pouring.speed_up)
-    assert found.wall_h["condense, paper"] == pytest.approx(25.0) and found.threads["condense, paper"] == 1
-    assert found.memory_GB["one test, paper"] == pytest.approx(5.0)
-
-
 def test_fits_of_a_law(tmp_path):
     """A row for each size and band; only hot tests leave parameters to the prior."""
     run(tmp_path, "law.py", "--output", "rows.csv")

@@ -23,7 +23,7 @@ SYRUP = Matrix(np.array(3.0), 1e20)  # G = 1 Pa, incompressible
 FINE = 4000  # rings where logarithms are read off
 
 # Approach of two spheres in a cylinder of free sides over M A / l, side 0.9 of the smaller radius, K = 2.5 GPa:
-# ratio of radii, gap over the smaller radius, M [Pa], finite elements (benchmarks/film_law.py pairs)
+# ratio of radii, gap over the smaller radius, M [Pa], finite elements (results/published/film/pairs.csv)
 ELEMENTS = [
     (1.0, 0.3, 6e8, 4.324),
     (1.0, 0.1, 6e5, 13.54),
@@ -34,7 +34,7 @@ ELEMENTS = [
 ]
 
 # Sliding: ratio of radii, gap over the smaller radius, M [Pa], side over the smaller radius (none for the cell of a
-# cubic lattice), finite elements over one material (benchmarks/film_law.py shears), tolerance
+# cubic lattice), finite elements over one material (results/published/film/shears.csv), tolerance
 SLIDING = [
     (1.0, 0.003, 6e3, 0.9, 13.55, 0.05),
     (0.3, 0.01, 6e3, 0.9, 35.69, 0.05),

@@ -82,102 +82,6 @@ rule benchmark_preparation:
         MEASURE + "/growth.py prepare {wildcards.size} {input.counts} --specimen {output.specimen} --output {output.row} > {log} 2>&1"
 
 
-rule benchmark_threads:
-    # Pouring on two threads beside one. By wall time, on two cores with nothing else to do: only on request.
-    input:
-        compiled="<results>/compiled/deposit",
-        counts=STUDY["specimens"]["counts_table"],
-        code=["benchmarks/threads.py", code("deposit")],
-    output:
-        "results/benchmark/threads.csv",
-    threads: 2
-    log:
-        "results/benchmark/logs/threads.log",
-    message:
-        "Pour 30 000 spheres on one thread and on two"
-    shell:
-        MEASURE + "/threads.py 30000 {input.counts} --output {output} > {log} 2>&1"
-
-
-rule benchmark_limits:
-    # How near the work of each stage is to the memory's limit. By wall time, on cores with nothing else to do: only on request.
-    input:
-        compiled=["<results>/compiled/deposit", "<results>/compiled/simulate"],
-        deposit=f"<results>/deposits/{SAMPLES[0]}.h5",
-        model=f"<results>/models/{HEAD}/{SAMPLES[0]}.h5",
-        code=["benchmarks/limits.py", code("deposit"), code("condense"), code("simulate")],
-    output:
-        "results/benchmark/limits.csv",
-    threads: 2
-    log:
-        "results/benchmark/logs/limits.log",
-    message:
-        "Measure sweeps, factors and solutions on one core and on two, beside copying"
-    shell:
-        MEASURE + "/limits.py {input.deposit} {input.model} --cores {threads} --output {output} > {log} 2>&1"
-
-
-rule publish_limits:
-    # What is committed of them. Only on request: snakemake --cores 2 publish_limits
-    input:
-        table="results/benchmark/limits.csv",
-        code=code("publish"),
-    message:
-        "Copy the limits of the stages"
-    shell:
-        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark"
-
-
-rule benchmark_layer:
-    # A layer of 200 000 spheres, poured on two threads, vibrated for the whole second and tested. An hour: only on request.
-    input:
-        compiled=["<results>/compiled/deposit", "<results>/compiled/simulate"],
-        counts=STUDY["specimens"]["counts_table"],
-        law=f"<results>/laws/{LAWS}/T20.json",
-        code=["benchmarks/layer.py", code("deposit"), code("trim"), code("condense"), code("simulate")],
-    output:
-        table="results/benchmark/layer.csv",
-        files=directory("results/benchmark/layer"),
-    threads: 2
-    log:
-        "results/benchmark/logs/layer.log",
-    message:
-        "Pour, bond and test 200 000 spheres"
-    shell:
-        MEASURE + "/layer.py 200000 {input.counts} {input.law} --threads {threads} --output {output.table} > {log} 2>&1"
-
-
-rule benchmark_million:
-    # From it, from the growth published and from the threads: what a million spheres would take.
-    input:
-        layer="results/benchmark/layer.csv",
-        growth="results/published/benchmark/growth.csv",
-        threads="results/benchmark/threads.csv",
-        code="benchmarks/million.py",
-    output:
-        "results/benchmark/million.csv",
-    log:
-        "results/benchmark/logs/million.log",
-    message:
-        "Estimate a layer of a million spheres"
-    shell:
-        MEASURE + "/million.py {input.layer} {input.growth} {input.threads} --output {output} > {log} 2>&1"
-
-
-rule publish_layer:
-    # What is committed of these. Only on request: snakemake --cores 2 publish_layer
-    input:
-        layer="results/benchmark/layer.csv",
-        threads="results/benchmark/threads.csv",
-        million="results/benchmark/million.csv",
-        code=code("publish"),
-    message:
-        "Copy the costs of the large layer"
-    shell:
-        "asphalt-nscd publish {input.layer} {input.threads} {input.million} --root results/benchmark"
-        " --output results/published/benchmark"
-
-
 rule benchmark_growth:
     # A test on them: condensed, reduced.
     input:
@@ -301,34 +205,6 @@ rule publish_outside:
         code=code("publish"),
     message:
         "Copy the comparison of packings"
-    shell:
-        "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark"
-
-
-rule benchmark_films:
-    # Full stepping with a law for each bond, against the frequency domain. Ten minutes: only on request.
-    input:
-        specimen=f"{FACETS}/specimens/{SAMPLES[0]}.h5",
-        recipe="data/forecast/recipe.yaml",
-        packings="results/forecast/packings",
-        code=["benchmarks/films.py", "src/asphalt_nscd/forecasting/stepping.py", code("forecast"), code("simulate")],
-    output:
-        "results/benchmark/films.csv",
-    log:
-        "results/benchmark/logs/films.log",
-    message:
-        "Bend a specimen whose bonds are films, by time steps and by frequency"
-    shell:
-        MEASURE + "/films.py {input.specimen} --recipe {input.recipe} --packings {input.packings} --output {output} > {log} 2>&1"
-
-
-rule publish_films:
-    # What is committed of them. Only on request: snakemake --cores 1 publish_films
-    input:
-        table="results/benchmark/films.csv",
-        code=code("publish"),
-    message:
-        "Copy the tests on films"
     shell:
         "asphalt-nscd publish {input.table} --root results/benchmark --output results/published/benchmark"
 

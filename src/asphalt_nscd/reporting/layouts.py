@@ -300,13 +300,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
             where={"limits": (3,), "densities": ("yes",), "truth": ("hirsch",)},
         )
     ],
-    "film_cells": [
-        Layout(
-            {name: name for name in ("spheres", "fraction", "E, %", "G, %")},
-            # A binder that flows; what a stiffer one makes is a sentence of docs/film.md.
-            where={"M / Ea": (0.0001,)},
-        )
-    ],
     "growth": [
         Layout(
             {
