@@ -57,7 +57,7 @@ def test_the_page_needs_no_matplotlib_and_the_handout_says_that_it_does(tmp_path
     out = tmp_path / "out"
     done = run(f"from asphalt_nscd.cli import main\nmain(['diagnose', *{DIAGNOSE}, '{out}'])")
     assert done.returncode == 0, done.stderr
-    assert done.stdout.endswith("report.pdf, two pages to hand on: pip install 'asphalt-nscd[figures]'.\n")
+    assert done.stdout.endswith("report.pdf, pages to hand on: pip install 'asphalt-nscd[figures]'.\n")
     assert (out / "diagnosis.html").read_text(encoding="utf-8").count("<svg") > 5
     assert (out / "corrected.xlsx").is_file() and not (out / "report.pdf").exists()
 

@@ -158,4 +158,4 @@ def command(
     if written["page"]:
         click.echo(f"For the reasons and figures, open {output / names[-1]} in a browser.")
         if not find_spec("matplotlib"):
-            click.echo("For report.pdf, two pages to hand on: pip install 'asphalt-nscd[figures]'.")
+            click.echo("For report.pdf, pages to hand on: pip install 'asphalt-nscd[figures]'.")

@@ -1,4 +1,4 @@
-"""Two pages to hand on: the answer with what is to be reported, and the corrected tests with the curve of the mix."""
+"""Pages to hand on: the answer with what is to be reported, the grid of AASHTO R 84, and two figures of the study."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ import pandas as pd
 from asphalt_nscd.diagnosis.words.brief import rows
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.files.store import atomic_path
+from asphalt_nscd.reporting.figures import fig_black, fig_master
 from asphalt_nscd.reporting.figures.style import journal
 
 if TYPE_CHECKING:
@@ -25,18 +26,20 @@ SIZE = 9.0  # points
 
 
 def write_handout(folder: Path, title: str) -> Path:
-    """Write report.pdf from diagnosis.json, corrected.csv, reported.csv and master_curve.csv of a folder.
+    """Write report.pdf from diagnosis.json, residuals.csv and reported.csv of a folder.
 
     The file holds no time of day, so that the same diagnosis gives the same bytes.
     """
     from matplotlib.backends.backend_pdf import PdfPages
 
-    content = read_diagnosis([folder / "diagnosis.json"])
-    tables = {name: pd.read_csv(folder / f"{name}.csv") for name in ("corrected", "reported", "master_curve")}
+    diagnosis, residuals = [folder / "diagnosis.json"], [folder / "residuals.csv"]
+    content = read_diagnosis(diagnosis)
+    pages = [_answer(content, title), _values(pd.read_csv(folder / "reported.csv"), content)]
+    pages += [drawn.draw(residuals, diagnosis) for drawn in (fig_master, fig_black)]
     # Without the time of day, so that the same diagnosis gives the same file.
     said = {"Title": title, "Creator": "asphalt-nscd", "CreationDate": None}
     with atomic_path(folder / PDF) as path, PdfPages(path, metadata=said) as pdf:
-        for figure in (_answer(content, title), _curves(tables, content)):
+        for figure in pages:
             pdf.savefig(figure)
     return folder / PDF
 
@@ -97,79 +100,22 @@ def law_in_words(content: dict[str, Any]) -> str:
 
 
 @journal
-def _curves(tables: dict[str, pd.DataFrame], content: dict[str, Any]) -> Figure:
-    """Corrected tests on the curve of the mix with its 95 % band, Black diagram, and the grid of AASHTO R 84."""
+def _values(table: pd.DataFrame, content: dict[str, Any]) -> Figure:
+    """|E*| and phase over temperature and frequency, those beyond the tests in grey; parameters of the law."""
     from matplotlib.figure import Figure
 
-    tests, curve = tables["corrected"], tables["master_curve"]
-    used = tests[tests["status"] == "used"]
     figure = Figure(figsize=A4)
-    grid = figure.add_gridspec(
-        3, 2, height_ratios=(1.0, 1.0, 0.9), left=0.11, right=0.96, top=0.95, bottom=0.06, hspace=0.32
-    )
-    across = f"frequency at {curve['temperature_C'].iloc[0]:g} °C [Hz]"
-    for place, name, label, scale in (
-        (grid[0, :], "E", "|E*| [MPa]", "log"),
-        (grid[1, 0], "phase", "phase [°]", "linear"),
-    ):
-        unit = "MPa" if name == "E" else "deg"
-        axes = figure.add_subplot(place)
-        axes.fill_between(
-            curve["frequency_Hz"],
-            curve[f"{name}_low_{unit}"],
-            curve[f"{name}_high_{unit}"],
-            color="0.8",
-            label="95 %",
-        )
-        axes.plot(curve["frequency_Hz"], curve[f"{name}_{unit}"], color="black", linewidth=0.8, label="mix")
-        if f"law_{name}_{unit}" in curve:
-            of_law = [f"law_{name}_{part}{unit}" for part in ("", "low_", "high_")]
-            for column, said, style in zip(
-                of_law, ("law.json", "its 95 %", ""), ("--", ":", ":"), strict=True
-            ):
-                if column in curve:
-                    axes.plot(
-                        curve["frequency_Hz"],
-                        curve[column],
-                        style,
-                        color="C3",
-                        linewidth=0.7,
-                        label=said or None,
-                    )
-        # Readings of an isotherm differ by tenths, and share one entry of the legend.
-        for temperature, those in used.groupby(used["temperature_C"].round()):
-            axes.plot(
-                those["reduced_frequency_Hz"],
-                those[f"{name}_{unit}"],
-                ".",
-                markersize=4,
-                label=f"{temperature:g} °C",
-            )
-        axes.set(xscale="log", yscale=scale, xlabel=across, ylabel=label)
-        if name == "E":
-            axes.legend(ncols=2, fontsize=7, frameon=False)
-    black = figure.add_subplot(grid[1, 1])
-    black.plot(used["phase_deg"], used["E_MPa"], ".", markersize=4, color="C0")
-    black.plot(curve["phase_deg"], curve["E_MPa"], color="black", linewidth=0.8)
-    black.set(yscale="log", xlabel="phase [°]", ylabel="|E*| [MPa]")
-    # Its first row, at 15 degC and 10 Hz, stands on the page before.
-    _grid_of_values(figure.add_subplot(grid[2, :]), tables["reported"].iloc[1:])
-    for n, line in enumerate(textwrap.wrap(law_in_words(content), 130)):
-        figure.text(0.06, 0.055 - 0.013 * n, line, size=7)
-    return figure
-
-
-def _grid_of_values(axes: Any, table: pd.DataFrame) -> None:
-    """|E*| and phase over temperature and frequency; those beyond the tests in grey."""
+    axes = figure.add_axes((0.11, 0.55, 0.85, 0.38))
     axes.set_axis_off()
     axes.set_title(
         "|E*| [MPa] and phase [°] of the mix (AASHTO R 84); grey: extrapolated", fontsize=9, loc="left"
     )
-    temperatures = table["temperature_C"].unique()
-    frequencies = table["frequency_Hz"].unique()
+    # Its first row, at 15 degC and 10 Hz, stands on the page before.
+    grid = table.iloc[1:]
+    temperatures, frequencies = grid["temperature_C"].unique(), grid["frequency_Hz"].unique()
     texts, colours = [], []
     for f in frequencies:
-        of = table[table["frequency_Hz"] == f]
+        of = grid[grid["frequency_Hz"] == f]
         texts.append([f"{e:.0f} +- {np.sqrt(high / low) - 1:.0%}; {p:.1f}" for e, low, high, p in
                       zip(of["E_MPa"], of["E_low_MPa"], of["E_high_MPa"], of["phase_deg"], strict=True)])  # fmt: skip
         colours.append(["black" if there else "0.6" for there in of["within_the_tests"]])
@@ -185,3 +131,6 @@ def _grid_of_values(axes: Any, table: pd.DataFrame) -> None:
         cell.set_linewidth(0.3)
         if row and column >= 0:
             cell.get_text().set_color(colours[row - 1][column])
+    for n, line in enumerate(textwrap.wrap(law_in_words(content), 120)):
+        figure.text(0.11, 0.77 - 0.013 * n, line, size=7)
+    return figure
