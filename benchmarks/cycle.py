@@ -13,8 +13,9 @@ import numpy as np
 from rows import Clock, absent, run, write_rows
 
 from asphalt_nscd.bending.bending_test import Record, bond_law, run_test
-from asphalt_nscd.bending.case import LoadCase, Numerics
+from asphalt_nscd.bending.case import LoadCase
 from asphalt_nscd.bending.model import read_model
+from asphalt_nscd.bending.settings import Numerics
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper

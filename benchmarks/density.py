@@ -16,8 +16,8 @@ import pandas as pd
 
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import Pouring, Surfaces, pour
+from asphalt_nscd.specimen.preparation import pour
+from asphalt_nscd.specimen.settings import Pouring, Surfaces, Vibration
 
 SHARE = 0.16  # of the paper's counts, as the area of the box is of the paper's
 LENGTH, WIDTH = 0.04, 0.025  # m

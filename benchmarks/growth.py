@@ -25,18 +25,19 @@ import pandas as pd
 from rows import Clock, write_rows
 
 from asphalt_nscd.bending.bending_test import bond_law, run_test
-from asphalt_nscd.bending.case import LoadCase, Numerics
-from asphalt_nscd.bending.condensing import Bonds, condense
+from asphalt_nscd.bending.case import LoadCase
+from asphalt_nscd.bending.condensing import condense
 from asphalt_nscd.bending.model import read_model
+from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.measurements.signals import harmonic_response
 from asphalt_nscd.measurements.twopoint import complex_modulus
 from asphalt_nscd.nscd.bonds.implicit_operator import LARGEST_FACTORED
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.rheology.laws_io import read_bond_law
 from asphalt_nscd.specimen.counts import read_counts
-from asphalt_nscd.specimen.cutting import Cutting, trim_deposit
-from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import Pouring, deposit
+from asphalt_nscd.specimen.cutting import trim_deposit
+from asphalt_nscd.specimen.preparation import deposit
+from asphalt_nscd.specimen.settings import Cutting, Pouring, Vibration
 
 BOX = (0.25, 0.025, 0.64)  # m; the paper's 1.6 m high lattice is mostly empty, and its fall long
 GEOMETRY = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250}

@@ -5,9 +5,7 @@ from asphalt_nscd.api.comparison import Comparison as Comparison
 from asphalt_nscd.api.comparison import compare as compare
 from asphalt_nscd.api.contacts import solve_contacts as solve_contacts
 from asphalt_nscd.api.diagnosis import Diagnosis as Diagnosis
-from asphalt_nscd.api.diagnosis import Known as Known
 from asphalt_nscd.api.diagnosis import diagnose as diagnose
-from asphalt_nscd.api.exporting import ExportSettings as ExportSettings
 from asphalt_nscd.api.exporting import export as export
 from asphalt_nscd.api.fatigue import fatigue as fatigue
 from asphalt_nscd.api.forecasting import Forecast as Forecast
@@ -20,16 +18,18 @@ from asphalt_nscd.api.specimens import Specimen as Specimen
 from asphalt_nscd.api.specimens import pour as pour
 from asphalt_nscd.api.specimens import read_packing as read_packing
 from asphalt_nscd.api.specimens import specimen as specimen
-from asphalt_nscd.bending.case import Load as Load
-from asphalt_nscd.bending.case import Numerics as Numerics
-from asphalt_nscd.bending.condensing import Bonds as Bonds
-from asphalt_nscd.bending.fatigue import FatigueLaw as FatigueLaw
-from asphalt_nscd.bending.hold import Hold as Hold
 from asphalt_nscd.bending.rig import Rig as Rig
-from asphalt_nscd.diagnosis.run import Draws as Draws
-from asphalt_nscd.diagnosis.run import Simulated as Simulated
+from asphalt_nscd.bending.settings import Bonds as Bonds
+from asphalt_nscd.bending.settings import FatigueLaw as FatigueLaw
+from asphalt_nscd.bending.settings import Hold as Hold
+from asphalt_nscd.bending.settings import Load as Load
+from asphalt_nscd.bending.settings import Numerics as Numerics
+from asphalt_nscd.diagnosis.settings import Draws as Draws
+from asphalt_nscd.diagnosis.settings import Known as Known
+from asphalt_nscd.diagnosis.settings import Simulated as Simulated
+from asphalt_nscd.exports.settings import ExportSettings as ExportSettings
 from asphalt_nscd.files.errors import InputError as InputError
-from asphalt_nscd.specimen.deposit import Vibration as Vibration
-from asphalt_nscd.specimen.preparation import Surfaces as Surfaces
+from asphalt_nscd.specimen.settings import Surfaces as Surfaces
+from asphalt_nscd.specimen.settings import Vibration as Vibration
 
 __version__: str

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.bending.bending_test import TestFiles, bond_law, run_test, simulate
-from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
-from asphalt_nscd.bending.condensing import Bonds, condense
+from asphalt_nscd.bending.case import LoadCase, RunOptions
+from asphalt_nscd.bending.condensing import condense
 from asphalt_nscd.bending.layers import LAYERS
 from asphalt_nscd.bending.model import Model, read_model
+from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.cli import group
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save

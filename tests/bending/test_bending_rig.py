@@ -8,10 +8,11 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.bending.bending_test import TestFiles, run_test, simulate
-from asphalt_nscd.bending.case import LoadCase, Numerics
-from asphalt_nscd.bending.condensing import Bonds, condense
+from asphalt_nscd.bending.case import LoadCase
+from asphalt_nscd.bending.condensing import condense
 from asphalt_nscd.bending.model import read_model
 from asphalt_nscd.bending.rig import Rig, write_rig
+from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.twopoint import form_factor, mass_factor

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import asphalt_nscd as an
-from asphalt_nscd.bending.case import LoadCase, Numerics
+from asphalt_nscd.bending.case import LoadCase
+from asphalt_nscd.bending.settings import Numerics
 from asphalt_nscd.files.store import save
 
 

@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.bending.bending_test import TestFiles, read_subject, simulate
-from asphalt_nscd.bending.case import LoadCase, Numerics
-from asphalt_nscd.bending.condensing import Bonds, condense
+from asphalt_nscd.bending.case import LoadCase
+from asphalt_nscd.bending.condensing import condense
+from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.nscd.stepping import bond_bounds

@@ -10,8 +10,8 @@ import pytest
 from theory.specimens import QUICK_LAW, jittered_beam
 
 import asphalt_nscd as an
-from asphalt_nscd.bending.condensing import Bonds
-from asphalt_nscd.bending.fall import Fall, fell, released
+from asphalt_nscd.bending.fall import fell, released
+from asphalt_nscd.bending.settings import Bonds, Fall
 from asphalt_nscd.cli import main
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.fourpoint import Beam

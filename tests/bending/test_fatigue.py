@@ -9,15 +9,14 @@ import pytest
 from scipy import sparse
 
 from asphalt_nscd.bending.bending_test import bond_law
-from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.bending.fatigue import (
-    FatigueLaw,
     cycle_by_cycle,
     fatigue,
     largest_strain,
     largest_strain_at,
     profile_of,
 )
+from asphalt_nscd.bending.settings import Bonds, FatigueLaw
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry

@@ -7,10 +7,11 @@ import pytest
 from theory.specimens import QUICK_LAW
 
 from asphalt_nscd.bending.bending_test import run_test
-from asphalt_nscd.bending.case import LoadCase, Numerics
-from asphalt_nscd.bending.condensing import Bonds, condensed
+from asphalt_nscd.bending.case import LoadCase
+from asphalt_nscd.bending.condensing import condensed
 from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.bending.rig import Rig
+from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.measurements.fourpoint import Beam

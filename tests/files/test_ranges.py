@@ -4,19 +4,12 @@ from __future__ import annotations
 
 import re
 
-import click
 import numpy as np
 import pytest
 
-from asphalt_nscd.bending.case import Load, Numerics
-from asphalt_nscd.bending.condensing import Bonds
-from asphalt_nscd.bending.fatigue import FatigueLaw
-from asphalt_nscd.bending.hold import Hold
-from asphalt_nscd.cli import _options
+from asphalt_nscd.bending.settings import Bonds, FatigueLaw, Hold, Load, Numerics
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.specimen.cutting import Cutting
-from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import Pouring, Surfaces
+from asphalt_nscd.specimen.settings import Cutting, Pouring, Surfaces, Vibration
 
 NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
 
@@ -66,13 +59,3 @@ NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
 def test_values_out_of_range_are_one_sentence(make, sentence):
     with pytest.raises(InputError, match="^" + re.escape(sentence)):
         make()
-
-
-def test_an_option_takes_what_its_field_takes_in_its_own_unit():
-    stroke = _options.Of("specimen.deposit.Vibration.stroke", unit=1e-3)  # mm of m
-    assert stroke.convert("1000", None, None) == 1000.0
-    for value in ("1000.1", "-1e-9", "nan", "six"):
-        with pytest.raises(
-            click.BadParameter, match=f"'{value}' must be a number at least 0 and at most 1000"
-        ):
-            stroke.convert(value, None, None)

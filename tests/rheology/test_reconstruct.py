@@ -10,7 +10,8 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.reduction import reduce_table
 from asphalt_nscd.rheology.published_laws import read_published
-from asphalt_nscd.rheology.reconstruct import Sampling, fit_published, reconstruct_table
+from asphalt_nscd.rheology.reconstruct import fit_published, reconstruct_table
+from asphalt_nscd.rheology.sampling import Sampling
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
 PAPER = Path(__file__).parents[2] / "data" / "paper"
@@ -116,15 +117,15 @@ def test_smooth_law_can_be_kept_and_the_grid_chosen(smooth, tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        ({"specimens": 0}, "at least one"),
+        ({"specimens": 0}, "specimens = 0; give a number at least 1"),
         ({"specimens": 5}, "specimen '5' has no geometry"),
         ({"frequencies": (3.0, -1.0)}, "must be positive"),
         ({"frequencies": ()}, "must be positive"),
         ({"frequencies": (3.0, float("nan"))}, "must be positive"),
         ({"frequencies": (3.0, 3.0)}, "give each once"),
-        ({"amplitude": 0.0}, "amplitude must be positive"),
-        ({"modulus_scatter": -0.1}, "scatter not negative"),
-        ({"phase_scatter_deg": float("nan")}, "scatter not negative"),
+        ({"amplitude": 0.0}, "amplitude_m = 0; give a number greater than 0"),
+        ({"modulus_scatter": -0.1}, "modulus_scatter = -0.1; give a number at least 0"),
+        ({"phase_scatter_deg": float("nan")}, "phase_scatter_deg = nan;"),
         ({"seed": -1}, "seed = -1"),
     ],
 )

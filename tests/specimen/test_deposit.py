@@ -10,9 +10,10 @@ from naive.granular import all_pairs
 
 from asphalt_nscd.nscd.spheres.granular import near_pairs
 from asphalt_nscd.specimen import granular_bed as granular_bed
-from asphalt_nscd.specimen.deposit import REST_SPEED, PouringHistory, Vibration, balance, settle, vibrate
+from asphalt_nscd.specimen.deposit import REST_SPEED, PouringHistory, balance, settle, vibrate
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
+from asphalt_nscd.specimen.settings import Vibration
 
 BOX = (0.021, 0.016, 0.07)
 

@@ -7,10 +7,10 @@ import pytest
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
-from asphalt_nscd.specimen import preparation
-from asphalt_nscd.specimen.cutting import Cutting, read_specimen, trim_deposit
-from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import Pouring, Surfaces, deposit, layer_statistics
+from asphalt_nscd.specimen import preparation, settings
+from asphalt_nscd.specimen.cutting import read_specimen, trim_deposit
+from asphalt_nscd.specimen.preparation import deposit, layer_statistics
+from asphalt_nscd.specimen.settings import Cutting, Pouring, Surfaces, Vibration
 from asphalt_nscd.specimen.trimming import layer_height
 
 BOX = (0.06, 0.01, 0.14)
@@ -146,14 +146,14 @@ def test_a_box_in_millimetres_is_refused_before_anything_is_poured():
 
 @pytest.mark.parametrize("threads", [0, -1, 3])
 def test_threads_that_the_machine_has_not_are_refused(threads, monkeypatch):
-    monkeypatch.setattr(preparation, "cores", lambda: 2)
+    monkeypatch.setattr(settings, "cores", lambda: 2)
     sentence = f"threads = {threads}: give a whole number from 1 to 2, the cores that this machine grants."
     with pytest.raises(InputError, match=f"^{sentence}$"):
         preparation.pour((np.array([5e-3]), np.array([20])), Pouring((0.05, 0.02, 0.12), threads=threads))
 
 
 def test_two_threads_pour_the_same_layer(monkeypatch):
-    monkeypatch.setattr(preparation, "cores", lambda: 2)
+    monkeypatch.setattr(settings, "cores", lambda: 2)
     spheres, shaken = (np.array([2e-3, 4e-3]), np.array([120, 20])), Vibration(1e-3, 30.0, 0.02)
     one, two = (
         preparation.pour(spheres, Pouring(BOX, 1, vibration=shaken, threads=threads)) for threads in (1, 2)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from asphalt_nscd.bending.condensing import Bonds
+from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.specimen.granular_bed import LARGEST_RATIO, PouringNumerics
 from asphalt_nscd.specimen.preparation import unrest

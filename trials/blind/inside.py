@@ -15,9 +15,10 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.bending.bending_test import bond_law, run_test
-from asphalt_nscd.bending.case import LoadCase, Numerics
+from asphalt_nscd.bending.case import LoadCase
 from asphalt_nscd.bending.model import Model, read_model
 from asphalt_nscd.bending.rig import Rig
+from asphalt_nscd.bending.settings import Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.conversion import kelvin_chain
 

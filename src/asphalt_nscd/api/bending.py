@@ -16,11 +16,11 @@ from asphalt_nscd.api.pictures import drawing, sheet, shown_in_notebooks
 from asphalt_nscd.api.results import Result
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told
-from asphalt_nscd.bending.case import Load, Numerics, RunOptions
-from asphalt_nscd.bending.condensing import Bonds, condensed
-from asphalt_nscd.bending.hold import Hold
+from asphalt_nscd.bending.case import RunOptions
+from asphalt_nscd.bending.condensing import condensed
 from asphalt_nscd.bending.hold import hold as of_hold
 from asphalt_nscd.bending.model import Model, model_of
+from asphalt_nscd.bending.settings import Bonds, Hold, Load, Numerics
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.files.words import counted
 

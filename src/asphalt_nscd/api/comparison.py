@@ -10,13 +10,13 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
-from asphalt_nscd.api.diagnosis import Diagnosis, Known, diagnose
+from asphalt_nscd.api.diagnosis import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE
 from asphalt_nscd.diagnosis.machine.common_faults import Pooled
 from asphalt_nscd.diagnosis.machine.pooled import pool
 from asphalt_nscd.diagnosis.observed.copies import refuse_copied_campaign
 from asphalt_nscd.diagnosis.record.reported import EN_12697_26, master_curve
-from asphalt_nscd.diagnosis.run import Draws
+from asphalt_nscd.diagnosis.settings import Draws, Known
 from asphalt_nscd.diagnosis.words import brief, sentences
 from asphalt_nscd.files.errors import InputError
 

@@ -20,7 +20,8 @@ from asphalt_nscd.api.pictures import drawing, shown_in_notebooks
 from asphalt_nscd.api.tables import Measurements, campaign_in
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.record.measured_limits import Progress, Trials, verify
-from asphalt_nscd.diagnosis.run import Draws, Outcome, Simulated, Stated, conclude
+from asphalt_nscd.diagnosis.run import Outcome, Stated, conclude
+from asphalt_nscd.diagnosis.settings import Draws, Known, Simulated
 from asphalt_nscd.diagnosis.words.brief import rows
 from asphalt_nscd.diagnosis.words.summary import answer, summary
 from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
@@ -407,31 +408,6 @@ def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
         "sentence": rung["sentence"],
         "confirmed_by": rung["confirmed_by"],
     }
-
-
-@dataclass(frozen=True)
-class Known:
-    """What is known beside the table.
-
-    Parameters
-    ----------
-    static_modulus_MPa : float, optional
-        Of the mix at long times [MPa].
-    scatter : tuple of float, optional
-        Standard deviations of one test: |E*| in % and phase in degrees; else they come from replicates.
-    law : str
-        Form that the law of the mix is given: "2s2p1d", "huet-sayegh", "sigmoid" (AASHTO R 84, MEPDG) or
-        "cam". All four are compared.
-
-    Examples
-    --------
-    >>> Known(scatter=(3.0, 0.5)).static_modulus_MPa is None
-    True
-    """
-
-    static_modulus_MPa: float | None = None
-    scatter: tuple[float, float] | None = None
-    law: str = "2s2p1d"
 
 
 @checked

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
@@ -13,62 +12,12 @@ from asphalt_nscd.api.results import Result
 from asphalt_nscd.exports.card import UNITS, Settings
 from asphalt_nscd.exports.export import export_law, require_form
 from asphalt_nscd.exports.law import law_of, read_law_file
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.maxwell_fitting import Miss
 
 if TYPE_CHECKING:
     from asphalt_nscd.api.diagnosis import Diagnosis
-
-
-@dataclass(frozen=True)
-class ExportSettings:
-    """How closely a Prony series follows its law, and what the file says beside it.
-
-    Parameters
-    ----------
-    error_percent : float
-        Largest error of |E*| over the tested band [%].
-    error_deg : float
-        Largest error of the phase over the tested band [degrees].
-    poisson : float, optional
-        Poisson's ratio; None for 0.35, said to be assumed.
-    units : str
-        "SI" or "mm-N-MPa".
-    name : str
-        Of the material.
-
-    Examples
-    --------
-    >>> ExportSettings(error_percent=0.5, poisson=0.4, units="mm-N-MPa").error_deg
-    0.5
-    """
-
-    error_percent: float = 1.0
-    error_deg: float = 0.5
-    poisson: float | None = None
-    units: str = "SI"
-    name: str = "ASPHALT"
-
-    def of_card(self) -> Settings:
-        """The same as the exports take it.
-
-        Returns
-        -------
-        Settings
-            Errors, Poisson's ratio, units and name.
-
-        Raises
-        ------
-        InputError
-            For units that are not known, or an error not greater than zero.
-        """
-        if self.units not in UNITS:
-            raise InputError(f"units {self.units!r} are not known; give one of {', '.join(UNITS)}.")
-        if not (self.error_percent > 0.0 and self.error_deg > 0.0):
-            raise InputError(
-                "an error that the Prony series may have must be greater than zero; give such a number."
-            )
-        return Settings(Miss(self.error_percent, self.error_deg), self.poisson, UNITS[self.units], self.name)
 
 
 @checked
@@ -118,7 +67,7 @@ def export(
     # By the ending, for a law is JSON and a result HDF5.
     if isinstance(law, Result) or Path(str(law)).suffix.lower() in (".h5", ".hdf5"):
         return _export_result(law, output, form)
-    card, tested = settings.of_card(), (temperatures_C, frequencies_Hz)
+    card, tested = _of_card(settings), (temperatures_C, frequencies_Hz)
     require_form(form, Path(output))
     if isinstance(law, str | Path):
         return export_law(read_law_file(law, *tested), card, form, output)
@@ -146,3 +95,8 @@ def _export_result(result: Result | str | Path | Law | Diagnosis, output: str | 
         path = Path(folder, "result.h5")
         result.write(path)
         return export_result(path, form, output)
+
+
+def _of_card(said: ExportSettings) -> Settings:
+    """The same as the exports take it."""
+    return Settings(Miss(said.error_percent, said.error_deg), said.poisson, UNITS[said.units], said.name)

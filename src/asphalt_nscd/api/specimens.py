@@ -26,10 +26,10 @@ from asphalt_nscd.packings.incoming import as_deposit
 from asphalt_nscd.packings.incoming import read_packing as read_spheres
 from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
-from asphalt_nscd.specimen.cutting import Cutting, bonded, specimen_of
-from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import Pouring, Surfaces, pour_on, unrest
+from asphalt_nscd.specimen.cutting import bonded, specimen_of
 from asphalt_nscd.specimen.preparation import pour as pour_spheres
+from asphalt_nscd.specimen.preparation import pour_on, unrest
+from asphalt_nscd.specimen.settings import Cutting, Pouring, Surfaces, Vibration
 from asphalt_nscd.specimen.trimming import Specimen as BondedSpheres
 
 Number = int | float | np.number
@@ -450,7 +450,7 @@ def specimen(
     >>> specimen(packing, g, area="facets").bonded.area
     'facets'
     """
-    cutting = Cutting(volume_reduction, gap_max_mm, area)
+    cutting = Cutting(volume_reduction, area, gap_max_mm)
     given = packing if isinstance(packing, Packing) else Packing.read(packing)
     shape = read_shape(geometry)
     return Specimen(*bonded((dict(given.arrays), dict(given.attributes)), shape, cutting), given.name)

@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from asphalt_nscd.bending import runs
-from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions, require_possible
+from asphalt_nscd.bending.case import LoadCase, RunOptions, require_possible
 from asphalt_nscd.bending.excerpt import ModelExcerpt, read_excerpt
 from asphalt_nscd.bending.layers import LayerHeights
 from asphalt_nscd.bending.rig import Rig, read_rig
+from asphalt_nscd.bending.settings import Numerics
 from asphalt_nscd.bending.taring import soft_clamp, tared
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from asphalt_nscd.bending.excerpt import write_excerpt
 from asphalt_nscd.bending.model import SHAPE, model_of
-from asphalt_nscd.files.ranges import Ranged, one_of, within
+from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.files.store import Record, save
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.stepping.break_modes import BONDS, StandBy
@@ -17,41 +16,10 @@ from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.specimen.contents import Content
 from asphalt_nscd.specimen.cutting import read_specimen
 from asphalt_nscd.specimen.prism import stiffness
-from asphalt_nscd.specimen.system import HEADS, bending_system
+from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
 
 KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
-
-
-@dataclass(frozen=True)
-class Bonds(Ranged):
-    """What bonds are beside their law, and whether the head rotates.
-
-    Parameters
-    ----------
-    head : str
-        "free" or "blocked".
-    poisson : float
-        nu of Eqs. (8)-(11), for bonds by area "paper".
-    kt_over_kn : float
-        Tangential over normal stiffness, for bonds by area "facets".
-    yield_Pa : float
-        Stress at which a bond breaks [Pa].
-    friction : float
-        Where the gap of a broken bond closes.
-
-    Examples
-    --------
-    >>> Bonds(head="blocked", yield_Pa=5e6).kt_over_kn
-    1.0
-    """
-
-    head: str = one_of("free", HEADS)
-    poisson: float = within(0.35, above=-1.0, high=0.5)  # of Eqs. (8)-(11); a network then shows 0.16
-    # one: a uniform strain is in equilibrium in any packing, with the modulus of the law (facet_network)
-    kt_over_kn: float = within(1.0, low=1e-4, high=10.0)
-    yield_Pa: float = within(2.7e6, low=1.0)  # the paper's, which names no test behind it
-    friction: float = within(0.7, low=0.0, high=100.0)
 
 
 def condense(

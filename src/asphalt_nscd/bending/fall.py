@@ -2,55 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, fields
 from typing import Any
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from asphalt_nscd.bending.condensing import Bonds
+from asphalt_nscd.bending.settings import Bonds, Fall
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.ranges import Ranged, within
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.world import Surroundings, World, WorldBonds, WorldEnergies
 from asphalt_nscd.specimen.contents import Content
 from asphalt_nscd.specimen.system import bond_weight, inertia
 from asphalt_nscd.specimen.trimming import Specimen
-
-MOST_STEPS = 1_000_000  # of some milliseconds each
-
-
-@dataclass(frozen=True)
-class Fall(Ranged):
-    """How a specimen falls, and how that is computed.
-
-    `height` of its lowest point over the floor in m; `tilt` of its axis from upright in degrees; `sawn` is the place of
-    the saw as a share of the length from the foot, 0 for none; `duration` and `time_step` in s; `frames` counts the
-    instants kept, the first included.
-
-    >>> Fall(duration=0.1).steps
-    500
-    """
-
-    height: float = within(0.02, "height_m", low=0.0, high=10.0)
-    tilt: float = within(75.0, "tilt_deg", low=-180.0, high=180.0)
-    sawn: float = within(0.5, low=0.0, below=1.0)
-    duration: float = within(0.5, "duration_s", above=0.0, high=100.0)
-    time_step: float = within(2e-4, "time_step_s", low=1e-7, high=1e-2)
-    frames: int = within(50, low=2, high=10_000)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.steps > MOST_STEPS:
-            raise InputError(
-                f"fall: {self.steps:.3g} steps of {self.time_step:g} s; it takes at most {MOST_STEPS:g}: raise the "
-                "time step, or follow it for less long."
-            )
-
-    @property
-    def steps(self) -> int:
-        """How many."""
-        return max(1, round(self.duration / self.time_step))
 
 
 def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> World:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.bending.condensing import Bonds
+from asphalt_nscd.bending.settings import STRAINS, Bonds, FatigueLaw
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.ranges import Range, Ranged, within
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.fatigue import FatigueHistory, Jumps, remaining_stiffness, strain, tire
 from asphalt_nscd.nscd.bonds.law import BondLaw
@@ -21,50 +20,9 @@ from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
 
 FAILURE = 0.5  # of the first stiffness, EN 12697-24
-MILLION = 1e6  # cycles, to which epsilon6 refers
 STEPS_PER_CYCLE = 32  # few are enough: the fitted scheme is exact in steady oscillation
 LAYERS = 20
 MOST_CYCLES = 10_000  # one by one
-STRAINS = Range(low=1e-8, high=0.1)
-
-
-@dataclass(frozen=True)
-class FatigueLaw(Ranged):
-    """How fast a bond tires: each cycle adds 1e-6 (e / endured)^exponent to its damage, and at 1 it is lost.
-
-    e is the amplitude of its opening over its length.
-
-    Parameters
-    ----------
-    endured : float
-        The e that uses a bond up in a million cycles.
-    exponent : float
-        Minus one over the slope b of the Wöhler line of specimens, log e = log e6 + b log (N / 1e6).
-
-    Examples
-    --------
-    >>> law = FatigueLaw(endured=100e-6, exponent=5.0)
-    >>> float(law.rate(np.array([200e-6]))[0]).__round__(9)
-    3.2e-05
-    """
-
-    endured: float = within(100e-6, low=STRAINS.low, high=STRAINS.high)
-    exponent: float = within(5.0, low=1.0, high=20.0)
-
-    def rate(self, amplitude: np.ndarray) -> np.ndarray:
-        """Damage per cycle.
-
-        Parameters
-        ----------
-        amplitude : ndarray (b,)
-            Of the strain of each bond, its opening over its length.
-
-        Returns
-        -------
-        ndarray (b,)
-            Damage that one cycle adds.
-        """
-        return np.asarray((amplitude / self.endured) ** self.exponent / MILLION)
 
 
 def largest_strain(geometry: Geometry) -> float:

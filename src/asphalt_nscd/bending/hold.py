@@ -2,86 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 import pandas as pd
 
 from asphalt_nscd.bending import runs
 from asphalt_nscd.bending.bending_test import bond_law
-from asphalt_nscd.bending.case import MOST_STEPS, RunOptions
+from asphalt_nscd.bending.case import RunOptions
 from asphalt_nscd.bending.model import Model
+from asphalt_nscd.bending.settings import Hold
 from asphalt_nscd.bending.taring import soft_clamp, tared
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.ranges import Ranged, within
 from asphalt_nscd.nscd.bonds.head import HeadDevices
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import of_chain
 
 MOST_BROKEN = 0.02  # of the bonds; beyond, the specimen no longer follows its law
-
-
-@dataclass(frozen=True)
-class Hold(Ranged):
-    """What is held, for how long, in how many equal steps.
-
-    Parameters
-    ----------
-    duration_s : float
-        Of the test [s].
-    steps : int
-        Of equal length.
-    force_N : float, optional
-        Held on the head [N]: creep.
-    displacement_m : float, optional
-        Held at the head [m]: relaxation. Without either it is relaxation too, at the amplitude of usual
-        tests.
-
-    Raises
-    ------
-    InputError
-        For force and displacement together, or a zero held.
-
-    Examples
-    --------
-    >>> Hold(duration_s=10.0, steps=500, force_N=300.0).time_step
-    0.02
-    """
-
-    duration_s: float = within(10.0, low=1e-6, high=1e9)
-    steps: int = within(1000, low=10, high=MOST_STEPS)
-    force_N: float | None = within(None, low=-1e9, high=1e9)
-    displacement_m: float | None = within(None, low=-1.0, high=1.0)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.force_N is not None and self.displacement_m is not None:
-            raise InputError("hold: give force_N for creep or displacement_m for relaxation, not both.")
-        if 0.0 in (self.force_N, self.displacement_m):
-            raise InputError("hold: nothing is held; give a force or a displacement other than zero.")
-
-    @property
-    def time_step(self) -> float:
-        """Length of a step.
-
-        Returns
-        -------
-        float
-            [s].
-        """
-        return self.duration_s / self.steps
-
-    @property
-    def band(self) -> tuple[float, float]:
-        """Frequencies that a law must hold for.
-
-        Returns
-        -------
-        tuple of float
-            [Hz]: 1 / (2 pi t) at the last and at the first time t.
-        """
-        return 0.5 / np.pi / self.duration_s, 0.5 / np.pi / self.time_step
 
 
 def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:

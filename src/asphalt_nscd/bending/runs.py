@@ -12,8 +12,9 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
+from asphalt_nscd.bending.case import LoadCase, RunOptions
 from asphalt_nscd.bending.layers import Layers
+from asphalt_nscd.bending.settings import Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.nscd.bonds.head import HeadDevices

@@ -33,8 +33,9 @@ def pour() -> None:
 def bend() -> None:
     """Bond eight spheres to a beam and test it by each method."""
     from asphalt_nscd.bending.bending_test import run_test
-    from asphalt_nscd.bending.case import METHODS, LoadCase, Numerics
+    from asphalt_nscd.bending.case import LoadCase
     from asphalt_nscd.bending.model import Model
+    from asphalt_nscd.bending.settings import METHODS, Numerics
     from asphalt_nscd.nscd.bonds.law import BondLaw
     from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis
     from asphalt_nscd.specimen.network import facet_network

@@ -13,6 +13,7 @@ from typing import Any
 import click
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.options import option
 
 
 class Data(click.ParamType):
@@ -25,6 +26,10 @@ class Data(click.ParamType):
         if not equals or not kind.isidentifier() or not path:
             self.fail(f"{value!r} is not of the form kind=path.", param, context)
         return kind, Path(path)
+
+
+Pairs = tuple[tuple[str, Path], ...]
+PAIRS: Any = option("", (), type=Data())
 
 
 def made_from(data: Iterable[tuple[str, Path]], make: Callable[..., Any]) -> Any:

@@ -1,15 +1,17 @@
-"""Options that several steps share."""
+"""Commands made of functions: what stands before `*` are arguments, what stands behind it options (`files.options`)."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from functools import wraps
-from importlib import import_module
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import MISSING, dataclass, is_dataclass
+from functools import partial, wraps
+from inspect import Parameter, signature
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_origin, get_type_hints
 
 import click
 
+from asphalt_nscd.files.options import Option, option, option_of, options_of
 from asphalt_nscd.files.ranges import Range
 from asphalt_nscd.measurements.kinds import TEST_TYPES
 
@@ -18,24 +20,108 @@ CYLINDER = ("d_mm", "h_mm", "mass_kg", "mobile_mass_kg")
 BEAM = ("L_mm", "H_mm", "B_mm", "mass_kg", "mobile_mass_kg")
 
 File = click.Path(path_type=Path)
-output = click.option("--output", required=True, type=File, help="File to write.")
-outputs = click.option(
-    "--output", "outputs", required=True, multiple=True, type=File, help="File to write, one for each."
-)
 
 
-def gather(name: str, /, **keys: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """Hand options over as one mapping `name`: its keys, each with the option whose value it gets."""
+def step(function: Callable[..., None] | None = None, /, **settings: Any) -> Any:
+    """The command of a function; `settings` are those of click.
 
-    def decorate(command: Callable[..., None]) -> Callable[..., None]:
-        @wraps(command)
-        def gathered(**options: Any) -> None:
-            together = {key: options.pop(option) for key, option in keys.items()}
-            command(**options, **{name: together})
+    A parameter that is a dataclass takes the options of its fields, or those that `only` names. An annotation
+    `tuple[Path, ...]` takes several, `Sequence[float]` numbers joined by commas.
+    """
+    if function is None:
+        return partial(step, **settings)
+    hints = get_type_hints(function)
+    params: list[click.Parameter] = []
+    said: dict[str, Option] = {}
+    for name, parameter in signature(function).parameters.items():
+        if is_dataclass(hints[name]):
+            params += [_option(one) for one in _options_in(hints[name], parameter.default)]
+            continue
+        default = option("") if parameter.default is Parameter.empty else parameter.default
+        said[name] = option_of(name, default, hints[name])
+        params.append((_option if parameter.kind is Parameter.KEYWORD_ONLY else _argument)(said[name]))
 
-        return gathered
+    @wraps(function)
+    def run(**values: Any) -> None:
+        function(
+            **{
+                name: values[_name(said[name])] if name in said else _made(hints[name], values)
+                for name in signature(function).parameters
+            }
+        )
 
-    return decorate
+    return click.command(params=params, **settings)(run)
+
+
+def only(*fields: str) -> Any:
+    """Of a parameter that is a dataclass: the fields that the command offers."""
+    return fields
+
+
+def _options_in(kind: Any, names: Any = Parameter.empty) -> Iterator[Option]:
+    """Options of a dataclass and of those in it, in the order of the fields."""
+    for name, hint in get_type_hints(kind).items():
+        if is_dataclass(hint):
+            yield from _options_in(hint)
+        elif name in options_of(kind) and (names is Parameter.empty or name in names):
+            yield options_of(kind)[name]
+
+
+def _made(kind: Any, values: Mapping[str, Any]) -> Any:
+    """The dataclass of what was given."""
+    given = {
+        name: said.of_field(values[_name(said)])
+        for name, said in options_of(kind).items()
+        if _name(said) in values
+    }
+    inner = {name: _made(hint, values) for name, hint in get_type_hints(kind).items() if is_dataclass(hint)}
+    return kind(**given, **inner)
+
+
+def _name(said: Option) -> str:
+    """Of a parameter of click."""
+    return said.key.lower()
+
+
+def _option(said: Option) -> click.Option:
+    word, flag = _name(said).replace("_", "-"), said.annotation is bool
+    more: dict[str, Any] = (
+        {"is_flag": True} if flag else {"type": _type(said), "multiple": _is_repeated(said)}
+    )
+    return click.Option(
+        [f"--{word}/--no-{word}" if flag and said.default else f"--{word}", _name(said)],
+        help=said.help,
+        **({"required": True} if said.default is MISSING else {"default": said.in_unit(said.default)}),
+        **more,
+    )
+
+
+def _argument(said: Option) -> click.Argument:
+    required, count = said.default is MISSING, -1 if _is_repeated(said) else 1
+    return click.Argument([_name(said)], type=_type(said), nargs=count, required=required)
+
+
+def _is_repeated(said: Option) -> bool:
+    return get_args(said.annotation)[-1:] == (...,)
+
+
+def _type(said: Option) -> Any:
+    """The type of click, for one of several."""
+    kind = get_args(said.annotation)[0] if _is_repeated(said) else said.annotation
+    limits = {name: said.in_unit(limit) for name, limit in said.range.limits.items()}
+    if said.type is not None:
+        return said.type
+    if said.choices:
+        return click.Choice(said.choices)
+    if Path in (kind, *get_args(kind)):
+        return File
+    if get_origin(kind) is tuple:
+        return Numbers(len(get_args(kind)))
+    if get_origin(kind) is Sequence:
+        return Numbers(low=limits["above"])
+    if kind is int and limits:
+        return click.IntRange(limits.get("low"), limits.get("high"))
+    return Number(Range(**limits)) if kind is float else kind
 
 
 class Geometry(click.ParamType):
@@ -61,28 +147,13 @@ class Geometry(click.ParamType):
         return geometry
 
 
-geometry = click.option("--geometry", required=True, type=Geometry(), help="Trapezoidal specimen.")
-shape = click.option(
-    "--geometry",
-    required=True,
-    type=Geometry(TRAPEZOID, CYLINDER, BEAM),
-    help="Trapezoid in two-point bending; cylinder in tension-compression: d_mm,h_mm,mass_kg,mobile_mass_kg; prism in "
-    "four-point bending: L_mm,H_mm,B_mm,mass_kg,mobile_mass_kg.",
-)
-
-
 class Number(click.ParamType):
-    """A finite number within limits, those of a `Range`."""
+    """A finite number in a range."""
 
     name = "number"
 
-    def __init__(self, **limits: float) -> None:
-        self.limits = limits
-
-    @property
-    def range(self) -> Range:
-        """What is taken."""
-        return Range(**self.limits)
+    def __init__(self, allowed: Range) -> None:
+        self.allowed = allowed
 
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> float:
         try:
@@ -90,30 +161,9 @@ class Number(click.ParamType):
         except (TypeError, ValueError):
             # NaN lies in no range, so that one sentence refuses both.
             number = float("nan")
-        if not self.range.holds(number):
-            self.fail(f"{value!r} must be a number {self.range}.", param, context)
+        if not self.allowed.holds(number):
+            self.fail(f"{value!r} must be a number {self.allowed}.", param, context)
         return number
-
-
-class Of(Number):
-    """What a field of a dataclass takes: `Of("bending.condensing.Bonds.friction")`.
-
-    unit: of the option, in that of the field. The class is imported when a value is judged.
-    """
-
-    def __init__(self, field: str, unit: float = 1.0) -> None:
-        self.field, self.unit = field, unit
-
-    @property
-    def range(self) -> Range:
-        module, name, field = self.field.rsplit(".", 2)
-        fields = getattr(import_module(f"asphalt_nscd.{module}"), name).__dataclass_fields__
-        limits = vars(fields[field].metadata["range"])
-        return Range(**{limit: value / self.unit for limit, value in limits.items()})
-
-
-POSITIVE = Number(above=0.0)
-NOT_NEGATIVE = Number(low=0.0)
 
 
 class Numbers(click.ParamType):
@@ -125,6 +175,9 @@ class Numbers(click.ParamType):
         self.size, self.low = size, low
 
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
+        # A default.
+        if not isinstance(value, str):
+            return value
         try:
             numbers = tuple(float(part) for part in value.split(","))
         except ValueError:
@@ -149,22 +202,19 @@ class Choice(click.ParamType):
         return quantity.strip(), column.strip()
 
 
-law = click.option(
-    "--law",
-    default="2s2p1d",
-    # Written out: to load the laws would take every command 0.2 s.
-    type=click.Choice(["2s2p1d", "huet-sayegh", "sigmoid", "cam"]),
-    help="Form of the law in law.json; sigmoid is that of AASHTO R 84. Misfits of all four are compared.",
-)
-measured_in = click.option(
-    "--measured-in",
-    type=click.Choice(list(TEST_TYPES)),
-    help="Test that gave the moduli; else what the files say.",
-)
-column = click.option(
-    "--column",
-    "columns",
-    multiple=True,
-    type=Choice(),
-    help="What a column holds, if its name does not say.",
-)
+output = click.option("--output", required=True, type=File, help="File to write.")
+OUTPUT = option("File to write.")
+OUTPUTS = option("File to write, one for each.", key="output")
+GEOMETRY = option("Trapezoidal specimen.", type=Geometry())
+MEASURED_IN = option("Test that gave the moduli; else what the files say.", None, choices=list(TEST_TYPES))
+
+
+@dataclass(frozen=True)
+class Table:
+    """How a table of measurements is read."""
+
+    sheet: str | None = option("The only sheet of an XLSX file to read; else all that hold tests.", None)
+    columns: tuple[tuple[str, str], ...] = option(
+        "What a column holds, if its name does not say.", (), key="column", type=Choice()
+    )
+    measured_in: str | None = MEASURED_IN

@@ -4,45 +4,23 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import OUTPUT, step
+from asphalt_nscd.files.options import option
 
 
-@click.command()
-@click.argument("spectrum", type=_options.File)
-@click.option(
-    "--temperature-c",
-    required=True,
-    type=_options.Number(above=-273.15),
-    help="Temperature of the test, degrees Celsius.",
-)
-@click.option(
-    "--lowest-hz",
-    required=True,
-    type=_options.POSITIVE,
-    help="Lowest frequency at which the chain must follow the law, Hz.",
-)
-@click.option("--highest-hz", required=True, type=_options.POSITIVE, help="Highest such frequency, Hz.")
-@click.option(
-    "--tolerance", default=1e-3, type=_options.POSITIVE, help="Largest |ln(E_chain/E)| allowed between them."
-)
-@click.option(
-    "--factor",
-    default=1.0,
-    type=_options.POSITIVE,
-    help="Factor on all moduli, which compensates that of the packing.",
-)
-@_options.output
+@step
 def command(
     spectrum: Path,
-    temperature_c: float,
-    lowest_hz: float,
-    highest_hz: float,
-    tolerance: float,
-    factor: float,
-    output: Path,
+    *,
+    temperature_C: float = option("Temperature of the test, degrees Celsius.", above=-273.15),
+    lowest_Hz: float = option("Lowest frequency at which the chain must follow the law, Hz.", above=0.0),
+    highest_Hz: float = option("Highest such frequency, Hz.", above=0.0),
+    tolerance: float = option("Largest |ln(E_chain/E)| allowed between them.", 1e-3, above=0.0),
+    factor: float = option("Factor on all moduli, which compensates that of the packing.", 1.0, above=0.0),
+    output: Path = OUTPUT,
 ) -> None:
     """Convert a law of all temperatures to the Kelvin chain that bonds follow at one temperature."""
     from asphalt_nscd.rheology.chain_law import chain_law
 
-    chain_law(spectrum, temperature_c, lowest_hz, highest_hz, tolerance, factor, output)
-    click.echo(f"{output}: a Kelvin chain at {temperature_c:g} degC, from {lowest_hz:g} to {highest_hz:g} Hz")
+    chain_law(spectrum, temperature_C, lowest_Hz, highest_Hz, tolerance, factor, output)
+    click.echo(f"{output}: a Kelvin chain at {temperature_C:g} degC, from {lowest_Hz:g} to {highest_Hz:g} Hz")

@@ -4,13 +4,11 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import OUTPUT, step
 
 
-@click.command()
-@click.argument("tests", nargs=-1, required=True, type=_options.File)
-@_options.output
-def command(tests: tuple[Path, ...], output: Path) -> None:
+@step
+def command(tests: tuple[Path, ...], *, output: Path = OUTPUT) -> None:
     """Collect test files into one table, a row for each."""
     from asphalt_nscd.bending.collect import collect
     from asphalt_nscd.files.store import write_table

@@ -4,32 +4,32 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _data, _options
+from asphalt_nscd.cli import _data
+from asphalt_nscd.cli._options import MEASURED_IN, only, step
 from asphalt_nscd.cli._progress import bars
+from asphalt_nscd.diagnosis.settings import Draws, Known
+from asphalt_nscd.files.options import option
 
 
-@click.command()
-@click.argument("mixes", type=_options.File, nargs=-1, required=True)
-@click.option("--output", required=True, type=_options.File, help="Folder for comparison.html and the rest.")
-@_options.measured_in
-@click.option(
-    "--same-machine", is_flag=True, help="One machine tested all: say what it does to all of them, too."
-)
-@_options.law
-@click.option("--draws", default=4000, type=click.IntRange(500, 10**6), help="Draws of the chance level.")
+@step
 def command(
-    mixes: tuple[Path, ...], output: Path, measured_in: str | None, same_machine: bool, law: str, draws: int
+    mixes: tuple[Path, ...],
+    *,
+    output: Path = option("Folder for comparison.html and the rest."),
+    measured_in: str | None = MEASURED_IN,
+    same_machine: bool = option("One machine tested all: say what it does to all of them, too.", False),
+    known: Known = only("law"),
+    draws: Draws = only("number"),
 ) -> None:
     """Diagnose several mixes and rank them: one workbook, one page, and a folder for each.
 
     MIXES: a file or a folder for each mix, two or more.
     """
     from asphalt_nscd.api.comparison import compare
-    from asphalt_nscd.api.diagnosis import Draws
     from asphalt_nscd.files.store import write_table
 
     with bars("mix", on_terminal=True) as progress:
-        made = compare(mixes, measured_in=measured_in, law=law, draws=Draws(draws), progress=progress)
+        made = compare(mixes, measured_in=measured_in, law=known.law, draws=draws, progress=progress)
     table, curves = made.table, made.curves
     for name, diagnosis in made.diagnoses.items():
         diagnosis.outcome.write(output / name)
@@ -38,7 +38,7 @@ def command(
     names = ["comparison.html", "comparison.xlsx"]
     said = ""
     if same_machine:
-        machine = made.same_machine(Draws(draws))
+        machine = made.same_machine(draws)
         write_table(output / "machine.csv", machine.table)
         sheets["Machine"], said = machine.table, str(machine)
         names.append("machine.csv")

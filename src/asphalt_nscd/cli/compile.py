@@ -1,11 +1,11 @@
 from __future__ import annotations
 
-import click
+from asphalt_nscd.cli._options import step
+from asphalt_nscd.files.options import option
 
 
-@click.command()
-@click.argument("step", type=click.Choice(["deposit", "simulate"]))
-def command(step: str) -> None:
+@step
+def command(step: str = option("", choices=("deposit", "simulate"))) -> None:
     """Compile what STEP needs of the core once, before its jobs start side by side."""
     from asphalt_nscd.bending.warmup import STEPS
 

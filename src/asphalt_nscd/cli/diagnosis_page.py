@@ -2,16 +2,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import click
+from asphalt_nscd.cli import _data
+from asphalt_nscd.cli._options import OUTPUT, step
+from asphalt_nscd.files.options import option
 
-from asphalt_nscd.cli import _data, _options
 
-
-@click.command()
-@click.argument("data", nargs=-1, type=_data.Data())
-@click.option("--title", required=True, help="Title of the page.")
-@_options.output
-def command(data: tuple[tuple[str, Path], ...], title: str, output: Path) -> None:
+@step
+def command(
+    data: _data.Pairs = _data.PAIRS, *, title: str = option("Title of the page."), output: Path = OUTPUT
+) -> None:
     """Show a diagnosis as an HTML page, from diagnosis=JSON, residuals=CSV, causality=CSV.
 
     table4=CSV and ladder=CSV, of a study, may be added.

@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import GEOMETRY, step
+from asphalt_nscd.files.options import option
 
 
 class Test(click.ParamType):
@@ -23,22 +25,33 @@ class Test(click.ParamType):
             self.fail(f"{value!r} is not of the form T,f,file.", param, context)
 
 
-@click.command()
-@click.argument("diagnosis", type=_options.File)
-@click.option("--law", required=True, type=_options.File, help="Continuous law of the diagnosis.")
-@click.option("--measured", required=True, type=_options.File, help="Measurements that were diagnosed.")
-@_options.geometry
-@click.option("--number", required=True, type=click.IntRange(0), help="Of the sample, from 0.")
-@click.option("--amplitude-m", required=True, type=_options.POSITIVE, help="Of the simulated tests.")
-@click.option(
-    "--test", "tests", required=True, multiple=True, type=Test(), help="A test and its bond law to write."
-)
-@click.option("--rig-output", required=True, type=_options.File, help="Rig to write.")
-@_options.gather("sample", number="number", amplitude="amplitude_m", tests="tests")
+@dataclass(frozen=True)
+class Tests:
+    """The simulated tests of a sample."""
+
+    number: int = option("Of the sample, from 0.", low=0)
+    amplitude_m: float = option("Of the simulated tests.", above=0.0)
+    tests: tuple[Any, ...] = option("A test and its bond law to write.", key="test", type=Test())
+
+
+@step
 def command(
-    diagnosis: Path, law: Path, measured: Path, geometry: Any, sample: dict[str, Any], rig_output: Path
+    diagnosis: Path,
+    *,
+    law: Path = option("Continuous law of the diagnosis."),
+    measured: Path = option("Measurements that were diagnosed."),
+    geometry: Any = GEOMETRY,
+    sample: Tests,
+    rig_output: Path = option("Rig to write."),
 ) -> None:
     """Extend the simulation of one sample by what a diagnosis named: bond laws of its tests, and a rig."""
     from asphalt_nscd.diagnosis.simulation.extension import Sample, extend
 
-    extend(diagnosis, law, measured, geometry, Sample(**sample), rig_output)
+    extend(
+        diagnosis,
+        law,
+        measured,
+        geometry,
+        Sample(sample.number, sample.amplitude_m, sample.tests),
+        rig_output,
+    )

@@ -4,19 +4,17 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import step
+from asphalt_nscd.files.options import option
 
 
-@click.command()
-@click.argument("files", nargs=-1, required=True, type=_options.File)
-@click.option(
-    "--tolerance",
-    default=1e-8,
-    type=_options.POSITIVE,
-    help="Tolerance on both relative errors of the natural map.",
-)
-@click.option("--output", type=_options.File, help="CSV table to write as well.")
-def command(files: tuple[Path, ...], tolerance: float, output: Path | None) -> None:
+@step
+def command(
+    files: tuple[Path, ...],
+    *,
+    tolerance: float = option("Tolerance on both relative errors of the natural map.", 1e-8, above=0.0),
+    output: Path | None = option("CSV table to write as well.", None),
+) -> None:
     """Solve frictional contact problems in FCLIB's HDF5 format. The exit status is 1 if one did not converge.
 
     Prints a line for each problem: contacts, iterations, error, CPU seconds, and whether it converged. The

@@ -2,16 +2,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import click
+from asphalt_nscd.cli import _data
+from asphalt_nscd.cli._options import step
+from asphalt_nscd.files.options import option
 
-from asphalt_nscd.cli import _data, _options
 
-
-@click.command()
-@click.argument("name")
-@click.argument("data", nargs=-1, type=_data.Data())
-@click.option("--output-stem", required=True, type=_options.File, help="Path without .pdf, .png, .svg.")
-def command(name: str, data: tuple[tuple[str, Path], ...], output_stem: Path) -> None:
+@step
+def command(
+    name: str,
+    data: _data.Pairs = _data.PAIRS,
+    *,
+    output_stem: Path = option("Path without .pdf, .png, .svg."),
+) -> None:
     """Draw figure NAME from DATA, each kind=path, as PDF, PNG and SVG."""
     from asphalt_nscd.reporting.figures.save import save_figure
 

@@ -4,21 +4,20 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import step
 from asphalt_nscd.cli._progress import bars
+from asphalt_nscd.files.options import option
 
 
-@click.command()
-@click.argument("recipe", type=_options.File)
-@click.option(
-    "--output", required=True, type=_options.File, help="Folder for forecast.csv, law.json and the page."
-)
-@click.option(
-    "--packings", type=_options.File, help="Folder of packings to use and to fill; else OUTPUT/packings."
-)
-@click.option("--seeds", default=2, type=click.IntRange(1, 20), help="Packings of each level.")
-@click.option("--page/--no-page", default=True, help="Whether to write forecast.html too.")
-def command(recipe: Path, output: Path, packings: Path | None, seeds: int, page: bool) -> None:
+@step
+def command(
+    recipe: Path,
+    *,
+    output: Path = option("Folder for forecast.csv, law.json and the page."),
+    packings: Path | None = option("Folder of packings to use and to fill; else OUTPUT/packings.", None),
+    seeds: int = option("Packings of each level.", 2, low=1, high=20),
+    page: bool = option("Whether to write forecast.html too.", True),
+) -> None:
     """Forecast |E*| and phase of a mix from its binder and recipe, with no measurement of the mix.
 
     RECIPE: YAML as data/forecast/recipe.yaml.

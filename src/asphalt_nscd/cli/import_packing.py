@@ -5,19 +5,22 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import OUTPUT, step
+from asphalt_nscd.files.options import option
 
 
-@click.command()
-@click.argument("packing", type=_options.File)
-@click.option(
-    "--unit",
-    type=click.Choice(["m", "cm", "mm", "um"]),
-    help="Of lengths, where the file does not say it; else m or mm, whichever makes aggregate of the radii.",
-)
-@click.option("--up", default="z", type=click.Choice(["x", "y", "z"]), help="Axis against gravity.")
-@_options.output
-def command(packing: Path, unit: str | None, up: str, output: Path) -> None:
+@step
+def command(
+    packing: Path,
+    *,
+    unit: str | None = option(
+        "Of lengths, where the file does not say it; else m or mm, whichever makes aggregate of the radii.",
+        None,
+        choices=("m", "cm", "mm", "um"),
+    ),
+    up: str = option("Axis against gravity.", "z", choices=("x", "y", "z")),
+    output: Path = OUTPUT,
+) -> None:
     """Take spheres that another program poured as a deposit, from which `trim` cuts a specimen.
 
     PACKING: CSV with x, y, z, radius; text of YADE; dump of LIGGGHTS or LAMMPS; VTK with an array radius.

@@ -4,14 +4,17 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import OUTPUTS, step
+from asphalt_nscd.files.options import option
 
 
-@click.command()
-@click.argument("tables", nargs=-1, required=True, type=_options.File)
-@click.option("--title", "titles", multiple=True, required=True, help="What a table shows, one for each.")
-@_options.outputs
-def command(tables: tuple[Path, ...], titles: tuple[str, ...], outputs: tuple[Path, ...]) -> None:
+@step
+def command(
+    tables: tuple[Path, ...],
+    *,
+    titles: tuple[str, ...] = option("What a table shows, one for each.", key="title"),
+    outputs: tuple[Path, ...] = OUTPUTS,
+) -> None:
     """Show CSV tables as HTML pages."""
     from asphalt_nscd.files.store import atomic_path
     from asphalt_nscd.reporting.pages.style import page

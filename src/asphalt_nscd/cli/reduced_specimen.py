@@ -4,13 +4,11 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import OUTPUT, step
 
 
-@click.command()
-@click.argument("model", type=_options.File)
-@_options.output
-def command(model: Path, output: Path) -> None:
+@step
+def command(model: Path, *, output: Path = OUTPUT) -> None:
     """Extract from a condensed model the two small matrices that `diagnose --specimen` needs."""
     from asphalt_nscd.diagnosis.simulation.simulated import reduce_model
 

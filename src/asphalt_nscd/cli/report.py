@@ -5,7 +5,9 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.cli import _data, _options
+from asphalt_nscd.cli import _data
+from asphalt_nscd.cli._options import OUTPUT, step
+from asphalt_nscd.files.options import option
 
 
 class Part(click.ParamType):
@@ -21,34 +23,25 @@ class Part(click.ParamType):
         return part, Path(path)
 
 
-@click.command()
-@click.argument("data", nargs=-1, type=_data.Data())
-@click.option("--study", required=True, help="Name of the study.")
-@click.option(
-    "--entry",
-    "entries",
-    multiple=True,
-    type=Part(),
-    help="A figure (PNG) or page (HTML) and the part of the report that shows it; repeatable.",
-)
-@click.option(
-    "--source",
-    "sources",
-    multiple=True,
-    type=Part(),
-    help="Name of a figure or page, and a file with its data that the report links; repeatable.",
-)
-@click.option(
-    "--captions", required=True, type=_options.File, help="Folder of captions, an .rst file for each entry."
-)
-@_options.output
+@step
 def command(
-    data: tuple[tuple[str, Path], ...],
-    study: str,
-    entries: tuple[tuple[str, Path], ...],
-    sources: tuple[tuple[str, Path], ...],
-    captions: Path,
-    output: Path,
+    data: _data.Pairs = _data.PAIRS,
+    *,
+    study: str = option("Name of the study."),
+    entries: _data.Pairs = option(
+        "A figure (PNG) or page (HTML) and the part of the report that shows it; repeatable.",
+        (),
+        key="entry",
+        type=Part(),
+    ),
+    sources: _data.Pairs = option(
+        "Name of a figure or page, and a file with its data that the report links; repeatable.",
+        (),
+        key="source",
+        type=Part(),
+    ),
+    captions: Path = option("Folder of captions, an .rst file for each entry."),
+    output: Path = OUTPUT,
 ) -> None:
     """Put all results of a study into one HTML file. Its first page is made from measured=CSV
     simulations=CSV samples=CSV diagnosis=JSON pictures=PNG.

@@ -2,18 +2,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import click
+from asphalt_nscd.cli._options import OUTPUT, step
+from asphalt_nscd.files.options import option
 
-from asphalt_nscd.cli import _options
 
-
-@click.command()
-@click.argument("files", nargs=-1, required=True, type=_options.File)
-@click.option("--root", required=True, type=_options.File, help="Folder of the study, which holds the files.")
-@click.option("--workflow", required=True, type=_options.File, help="Snakefile that made them.")
-@click.option("--provenance", required=True, type=_options.File, help="The study's provenance.json.")
-@_options.output
-def command(files: tuple[Path, ...], root: Path, workflow: Path, provenance: Path, output: Path) -> None:
+@step
+def command(
+    files: tuple[Path, ...],
+    *,
+    root: Path = option("Folder of the study, which holds the files."),
+    workflow: Path = option("Snakefile that made them."),
+    provenance: Path = option("The study's provenance.json."),
+    output: Path = OUTPUT,
+) -> None:
     """Put FILES of a study into one archive that says what they are and what made them (RO-Crate, .zip)."""
     from asphalt_nscd.reporting.crate import write_crate
 

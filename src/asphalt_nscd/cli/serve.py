@@ -2,11 +2,16 @@ from __future__ import annotations
 
 import click
 
+from asphalt_nscd.cli._options import step
+from asphalt_nscd.files.options import option
 
-@click.command()
-@click.option("--port", default=0, type=click.IntRange(0, 65535), help="Port; 0 takes a free one.")
-@click.option("--browser/--no-browser", default=True, help="Whether to open the page.")
-def command(port: int, browser: bool) -> None:
+
+@step
+def command(
+    *,
+    port: int = option("Port; 0 takes a free one.", 0, low=0, high=65535),
+    browser: bool = option("Whether to open the page.", True),
+) -> None:
     """Open a page on this machine to drop measurements on; nothing leaves the machine."""
     import webbrowser
 

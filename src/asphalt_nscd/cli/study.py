@@ -3,15 +3,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-import click
-
-from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import OUTPUT, step
 
 
-@click.command()
-@click.argument("study")
-@_options.output
-def command(study: str, output: Path) -> None:
+@step
+def command(study: str, *, output: Path = OUTPUT) -> None:
     """Write STUDY, the complete configuration in JSON, to a file."""
     from asphalt_nscd.files.errors import InputError
     from asphalt_nscd.files.store import write_json

@@ -2,16 +2,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import click
+from asphalt_nscd.cli import _data
+from asphalt_nscd.cli._options import OUTPUT, step
 
-from asphalt_nscd.cli import _data, _options
 
-
-@click.command()
-@click.argument("name")
-@click.argument("data", nargs=-1, type=_data.Data())
-@_options.output
-def command(name: str, data: tuple[tuple[str, Path], ...], output: Path) -> None:
+@step
+def command(name: str, data: _data.Pairs = _data.PAIRS, *, output: Path = OUTPUT) -> None:
     """Make table NAME from DATA, each kind=path."""
     from asphalt_nscd.files.store import write_table
 

@@ -26,6 +26,7 @@ from asphalt_nscd.diagnosis.record.measured_limits import Progress
 from asphalt_nscd.diagnosis.record.trust import reading, trust
 from asphalt_nscd.diagnosis.screening import levels, suspects
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
+from asphalt_nscd.diagnosis.settings import Draws, Simulated
 from asphalt_nscd.diagnosis.simulation import bond_mapping, extension, gain
 from asphalt_nscd.diagnosis.simulation.numerics import of_campaign
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen, read_specimen
@@ -82,51 +83,6 @@ class Outcome:
         """Write the files into a folder, made where it does not exist; the answer, and what was written, in words."""
         names = self.write(folder)
         return f"{answer(self.content)}\n\nWritten to {folder}: {', '.join(names)}."
-
-
-@dataclass(frozen=True)
-class Draws:
-    """Of the chance level: how many, and the seed of their random numbers.
-
-    Parameters
-    ----------
-    number : int
-        Tables drawn without any cause.
-    seed : int
-        The same seed gives the same diagnosis.
-
-    Examples
-    --------
-    >>> Draws(500)
-    Draws(number=500, seed=0)
-    """
-
-    number: int = 4000
-    seed: int = 0
-
-
-@dataclass(frozen=True)
-class Simulated:
-    """What was simulated of the tests that are diagnosed.
-
-    Parameters
-    ----------
-    campaign : path, optional
-        Table of simulated tests, to say what in them is numerics.
-    facets : path, optional
-        Table of the same tests with bonds that are facets, to judge bond_mapping.
-    specimen : path, optional
-        Numerical specimen, a file of `asphalt-nscd reduced-specimen`; else the one shipped.
-
-    Examples
-    --------
-    >>> Simulated(campaign="results/smoke/simulations.csv").specimen is None
-    True
-    """
-
-    campaign: str | Path | None = None
-    facets: str | Path | None = None
-    specimen: str | Path | None = None
 
 
 @dataclass(frozen=True)

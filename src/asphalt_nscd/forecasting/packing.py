@@ -10,8 +10,9 @@ import numpy as np
 
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.forecasting.levels import Level
-from asphalt_nscd.specimen.deposit import Progress, Vibration
-from asphalt_nscd.specimen.preparation import Pouring, pour
+from asphalt_nscd.specimen.deposit import Progress
+from asphalt_nscd.specimen.preparation import pour
+from asphalt_nscd.specimen.settings import Pouring, Vibration
 
 KIND = "level-packing"
 LARGEST = 10e-3  # m, of the spheres that are poured: the numbers of the pouring are made for this size

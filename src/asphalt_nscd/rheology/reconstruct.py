@@ -9,57 +9,24 @@ distance between these data and the Burgers laws is a prediction of it. The rows
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.measurements import twopoint
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.rheology.fitting import Fit
 from asphalt_nscd.rheology.published_laws import read_published
+from asphalt_nscd.rheology.sampling import FREQUENCIES, Sampling
 from asphalt_nscd.rheology.spectrum import Spectrum
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
-FREQUENCIES = (3.0, 6.0, 10.0, 25.0, 40.0)  # Hz, section 2.1 of the paper
 REFERENCE_TEMPERATURE = 15.0  # degC; any choice gives the same law
-
-
-@dataclass(frozen=True)
-class Sampling:
-    """What is drawn; each scatter is a standard deviation, and the same seed gives the same table.
-
-    `frequencies` in Hz, `amplitude` z0 of the head in m; `specimen_scatter` of ln|E*| of a whole specimen,
-    `modulus_scatter` of ln|E*| of a point, `phase_scatter_deg` of the phase of a point in degrees.
-    """
-
-    seed: int
-    specimens: int = 4
-    frequencies: Sequence[float] = FREQUENCIES
-    amplitude: float = twopoint.PAPER_AMPLITUDE
-    specimen_scatter: float = 0.03
-    modulus_scatter: float = 0.01
-    phase_scatter_deg: float = 0.3
-
-    def __post_init__(self) -> None:
-        frequencies = list(self.frequencies)
-        if self.specimens < 1:
-            raise InputError(f"specimens = {self.specimens}; reconstruct at least one.")
-        if not frequencies or not all(0 < value < np.inf for value in frequencies):
-            raise InputError(f"frequencies {frequencies} must be positive; give them in Hz.")
-        if len(set(frequencies)) < len(frequencies):
-            raise InputError(f"frequencies {frequencies}: one is given twice; give each once.")
-        scatters = self.specimen_scatter, self.modulus_scatter, self.phase_scatter_deg
-        if not 0 < self.amplitude < np.inf or not all(0 <= value < np.inf for value in scatters):
-            raise InputError("amplitude must be positive and scatter not negative; mend the options.")
-        if self.seed < 0:
-            raise InputError(f"seed = {self.seed}; give a whole number from zero.")
 
 
 def reconstruct_table(

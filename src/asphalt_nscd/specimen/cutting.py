@@ -3,32 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 
-from asphalt_nscd.files.ranges import Ranged, one_of, within
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.geometry import read_shape, require_within, shape_of
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN, Content
-from asphalt_nscd.specimen.network import AREAS, Network
+from asphalt_nscd.specimen.network import Network
+from asphalt_nscd.specimen.settings import Cutting
 from asphalt_nscd.specimen.trimming import Specimen, trim
 
 # of a deposit, in the specimen; source: of an import
 KEPT = ("seed", "source", "layer_height_m", "solid_fraction")
-
-
-@dataclass(frozen=True)
-class Cutting(Ranged):
-    """How the spheres that are cut out are shrunk and bonded.
-
-    `volume_reduction` is the part of each sphere's volume that mastic takes. Pairs with a gap below `gap_max_mm` are
-    bonded by area "paper"; `area` is one of `network.AREAS`.
-    """
-
-    volume_reduction: float = within(0.1, low=0.0, below=1.0)
-    gap_max_mm: float = within(2.0, above=0.0, high=100.0)
-    area: str = one_of("paper", AREAS)
 
 
 def trim_deposit(

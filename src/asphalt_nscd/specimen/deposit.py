@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from asphalt_nscd.files.ranges import Ranged, within
 from asphalt_nscd.specimen.granular_bed import WALL, GranularBed, PouringNumerics
+from asphalt_nscd.specimen.settings import Vibration
 
 REST_SPEED = 1e-3  # m/s, root mean square of all spheres
 REST_TOLERANCE = 1e-5  # of the sweeps that bring a layer into equilibrium, which is judged to UNBALANCED
@@ -19,30 +19,6 @@ WALL_MASS = 0.01  # of the layer
 
 Progress = Callable[[str, float, float], None]
 """Called with (stage, done, total), both in the unit of the stage."""
-
-
-@dataclass(frozen=True)
-class Vibration(Ranged):
-    """Vibration of the top wall, after pouring.
-
-    Parameters
-    ----------
-    stroke : float
-        Crest to crest [m].
-    frequency : float
-        [Hz].
-    duration : float
-        [s]; zero for none.
-
-    Examples
-    --------
-    >>> Vibration(duration=0.0).stroke  # pour without; the stroke of the paper
-    0.006
-    """
-
-    stroke: float = within(6e-3, "stroke_m", low=0.0, high=1.0)
-    frequency: float = within(30.0, "frequency_Hz", above=0.0, high=1e3)
-    duration: float = within(1.0, "duration_s", low=0.0, high=60.0)
 
 
 @dataclass

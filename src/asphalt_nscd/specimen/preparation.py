@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.ranges import Range, Ranged, within
 from asphalt_nscd.files.store import load, save
-from asphalt_nscd.nscd.cores import cores
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.contents import DEPOSIT, Content
 from asphalt_nscd.specimen.counts import read_counts
@@ -21,83 +19,19 @@ from asphalt_nscd.specimen.deposit import (
     REST_SPEED,
     PouringHistory,
     Progress,
-    Vibration,
     balance,
     settle,
     vibrate,
 )
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
+from asphalt_nscd.specimen.settings import LONGEST_POURING, LONGEST_REST, Pouring
 from asphalt_nscd.specimen.trimming import layer_height
 
-LARGEST_BOX = 10.0  # m
 DENSITY = 2600.0  # kg/m3 while pouring, section 3.2.1
-LONGEST_POURING = 3.0  # s; the fall from 1.6 m takes 0.6
-LONGEST_REST = 0.3  # s
 OUT_OF_BALANCE = 0.01  # of the weight, and of the mean contact force: a layer at rest has a twentieth of it
 DEEP = 0.05  # of the smallest radius: an overlap that a layer at rest does not have
-MOST_STEPS = 500_000  # of a pouring and its vibration
 TOUCHING = 1e-6  # m, gap below which two spheres count as touching
-
-
-@dataclass(frozen=True)
-class Surfaces(Ranged):
-    """Surfaces of grains and walls while they are poured.
-
-    Parameters
-    ----------
-    friction : float
-        Coefficient between spheres.
-    wall_friction : float, optional
-        Coefficient with walls; None for that between spheres.
-    restitution : float
-        Of an impact, with spheres and walls.
-
-    Examples
-    --------
-    >>> Surfaces(friction=0.3, wall_friction=0.0).friction  # rough grains between smooth walls
-    0.3
-    """
-
-    friction: float = within(0.2, low=0.0, high=100.0)
-    # smooth walls lower the usual layer from 63.5 to 62.1 mm (docs/pouring.md)
-    wall_friction: float | None = within(None, low=0.0, high=100.0)
-    restitution: float = within(0.0, low=0.0, below=1.0)
-
-
-@dataclass(frozen=True)
-class Pouring(Ranged):
-    """Where spheres fall, and how: `box` is length, width, height [m], `time_step` [s]; `threads` change no number."""
-
-    box: tuple[float, float, float]
-    seed: int = within(0, low=0)
-    surfaces: Surfaces = Surfaces()
-    vibration: Vibration = Vibration()
-    # shorter steps change neither height nor overlap; at 0.2 ms fast grains exchange no false impulse
-    time_step: float = within(4e-4, "time_step_s", low=1e-6, high=1e-3)
-    threads: int = 1
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        box = self.box
-        if len(box) != 3 or not all(Range(above=0.0).holds(side) for side in box):
-            raise InputError(f"box_m = {box}: give length, width and height in m, greater than zero.")
-        if max(box) > LARGEST_BOX:
-            raise InputError(
-                f"a box of {box[0]:g} x {box[1]:g} x {box[2]:g} m is longer than {LARGEST_BOX:g} m; give its sides in "
-                "m, not in mm."
-            )
-        steps = (LONGEST_POURING + 3.0 * LONGEST_REST + self.vibration.duration) / self.time_step
-        if steps > MOST_STEPS:
-            raise InputError(
-                f"pouring: up to {steps:.3g} steps of {self.time_step:g} s; it takes at most {MOST_STEPS:g}: raise the "
-                "time step, or vibrate for less long."
-            )
-        if not 1 <= self.threads <= cores():
-            raise InputError(
-                f"threads = {self.threads}: give a whole number from 1 to {cores()}, the cores that this machine "
-                "grants."
-            )
 
 
 def deposit(

@@ -12,9 +12,6 @@ from asphalt_nscd.measurements.shape import DRIVEN, FREE, HELD, Plate, Shape
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.specimen.trimming import Specimen
 
-# blocked, |E*| of the paper's specimen is 2.6 times that of its law, free 1.1 (bond_readings.csv)
-HEADS = ("free", "blocked")
-
 
 def affine_modulus(kt_over_kn: float) -> float:
     """E of an isotropic network that fills the volume, over that of its bonds, if all spheres follow the strain.

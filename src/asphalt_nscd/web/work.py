@@ -217,9 +217,10 @@ def _for_the_page(text: str, paths: Sequence[Path]) -> str:
 
 def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: Any) -> dict[str, Any]:
     """Diagnose, and write everything into the folder: what the first screen says, and the names of the files."""
-    from asphalt_nscd.api.diagnosis import Known, diagnose
+    from asphalt_nscd.api.diagnosis import diagnose
     from asphalt_nscd.api.tables import campaign_in
     from asphalt_nscd.diagnosis.record.stiffness_only import fit_stiffness, has_no_phase
+    from asphalt_nscd.diagnosis.settings import Known
     from asphalt_nscd.exports.workbook import corrected_workbook
     from asphalt_nscd.reporting.pages import stiffness_page
     from asphalt_nscd.reporting.pages.handout import write_handout

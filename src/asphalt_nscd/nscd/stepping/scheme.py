@@ -22,7 +22,6 @@ from typing import Any
 
 import numpy as np
 
-SCHEMES = ("euler", "fitted")
 VARIABLES = ("displacement", "velocity", "sigma", "kelvin")
 
 
@@ -35,7 +34,7 @@ class Scheme:
 
     @classmethod
     def named(cls, name: str, angle: float) -> Scheme:
-        """A scheme of SCHEMES; "fitted" is fitted to `angle` omega dt [rad], below pi/2, 0 giving BDF2."""
+        """The scheme "euler", or "fitted", which is fitted to `angle` omega dt [rad], below pi/2, 0 giving BDF2."""
         if name == "euler":
             return cls()
         # x / sin(2 x) by sinc, which has no 0/0 at an angle of zero, where this is BDF2

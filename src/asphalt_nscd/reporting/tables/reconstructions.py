@@ -10,7 +10,8 @@ import pandas as pd
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.tables.table4 import read_errors
 from asphalt_nscd.rheology.published_laws import read_published
-from asphalt_nscd.rheology.reconstruct import FREQUENCIES, Sampling, fit_published
+from asphalt_nscd.rheology.reconstruct import fit_published
+from asphalt_nscd.rheology.sampling import FREQUENCIES, Sampling
 
 DRAWS = 200
 FACTOR = 2.0  # of the printed error

@@ -10,7 +10,7 @@ import pandas as pd
 from asphalt_nscd.measurements.tables import the_only
 from asphalt_nscd.reporting.tables.table4 import read_errors
 from asphalt_nscd.rheology.published_laws import read_published
-from asphalt_nscd.rheology.reconstruct import FREQUENCIES
+from asphalt_nscd.rheology.sampling import FREQUENCIES
 from asphalt_nscd.rheology.smooth_bounds import Printed, least_scatter, phase_error
 
 WEIGHTS = (0.3, 1.0, 2.0, 10.0)  # of the phase in the fit; the paper does not say what it minimised

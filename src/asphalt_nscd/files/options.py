@@ -1,0 +1,104 @@
+"""Options: help, default, range and unit stand once. The command line and the schema of a study are made from them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import MISSING, dataclass, field, fields
+from functools import cache
+from numbers import Real
+from types import NoneType
+from typing import Any, get_args, get_type_hints
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Range
+
+
+@dataclass(frozen=True)
+class Option:
+    """What is said of a value that a user gives.
+
+    `key` names it in a study and, in lower case, at the command line, there in `unit` of the field: 1e-3 for mm of m.
+    `name` is how Python's sentences call it. `type` is that of click, where the annotation does not say it.
+    """
+
+    help: str
+    key: str
+    name: str
+    default: Any
+    annotation: Any
+    unit: float
+    range: Range
+    choices: Sequence[str]
+    type: Any
+
+    @property
+    def required(self) -> bool:
+        """Whether it must be given."""
+        return self.default is MISSING
+
+    @property
+    def as_given(self) -> Any:
+        """The default in the unit of the key."""
+        return self.in_unit(self.default)
+
+    def in_unit(self, value: Any) -> Any:
+        """A value of the field in the unit of the key."""
+        return value if self.unit == 1.0 or value is None or value is MISSING else value / self.unit
+
+    def of_field(self, value: Any) -> Any:
+        """A value in the unit of the key as the field has it."""
+        return value if self.unit == 1.0 or value is None else value * self.unit
+
+
+def option(help: str, default: Any = MISSING, **said: Any) -> Any:
+    """A field of a dataclass, or a parameter of a command, that is an option.
+
+    said: `key`, `name`, `unit`, `choices`, `type`, `range` of `Option`, or the limits of a range. Without a default it
+    must be given.
+    """
+    limits = {name: said.pop(name) for name in ("above", "low", "below", "high") if name in said}
+    return field(default=default, metadata={"help": help, "range": Range(**limits), **said})
+
+
+def option_of(name: str, made: Any, annotation: Any) -> Option:
+    """The option that `option` made of a field or parameter; None is left out of its annotation."""
+    said = {"key": name, "unit": 1.0, "choices": (), "type": None, **made.metadata}
+    kinds = [kind for kind in get_args(annotation) if kind is not NoneType]
+    plain = kinds[0] if len(kinds) == 1 and NoneType in get_args(annotation) else annotation
+    return Option(**{"name": said["key"], **said}, default=made.default, annotation=plain)
+
+
+@cache
+def options_of(kind: Any) -> dict[str, Option]:
+    """Options of a dataclass by the names of their fields.
+
+    >>> from asphalt_nscd.specimen.settings import Vibration
+    >>> stroke = options_of(Vibration)["stroke"]
+    >>> stroke.key, stroke.as_given, str(stroke.range)
+    ('stroke_mm', 6.0, 'at least 0 and at most 1')
+    """
+    hints = get_type_hints(kind)
+    return {
+        one.name: option_of(one.name, one, hints[one.name]) for one in fields(kind) if "help" in one.metadata
+    }
+
+
+class Ranged:
+    """A dataclass that refuses values out of the ranges of its options, in one sentence.
+
+    >>> @dataclass(frozen=True)
+    ... class Vibration(Ranged):
+    ...     duration: float = option("Duration.", 1.0, key="duration_s", low=0.0, high=60.0)
+    >>> Vibration(duration=-1.0)
+    Traceback (most recent call last):
+    asphalt_nscd.files.errors.InputError: vibration: duration_s = -1; give a number at least 0 and at most 60.
+    """
+
+    def __post_init__(self) -> None:
+        kind: Any = type(self)
+        for name, said in options_of(kind).items():
+            value, called = getattr(self, name), f"{type(self).__name__.lower()}: {said.name}"
+            if said.range.limits and isinstance(value, Real) and not said.range.holds(float(value)):
+                raise InputError(f"{called} = {float(value):g}; give a number {said.range}.")
+            if said.choices and isinstance(value, str) and value not in said.choices:
+                raise InputError(f"{called} = {value!r} is not known; give one of {', '.join(said.choices)}.")

@@ -1,0 +1,90 @@
+"""Commands made of functions and of the options of dataclasses."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from asphalt_nscd.bending.settings import Bonds
+from asphalt_nscd.cli import _options
+from asphalt_nscd.cli._options import only, step
+from asphalt_nscd.files.options import Ranged, option
+from asphalt_nscd.specimen.settings import Vibration
+
+
+@dataclass(frozen=True)
+class Inner(Ranged):
+    stroke: float = option("Stroke, mm.", 6e-3, key="stroke_mm", unit=1e-3, low=0.0, high=1.0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outer:
+    count: int = option("How many.", low=1)
+    inner: Inner = Inner()
+    kept: str = "not offered"
+
+
+@step
+def sample(
+    files: tuple[Path, ...],
+    *,
+    outer: Outer,
+    bonds: Bonds = only("friction"),
+    titles: tuple[str, ...] = option("Titles.", (), key="title"),
+    numbers: Sequence[float] | None = option("Numbers.", None, above=0.0),
+    page: bool = option("A page.", True),
+) -> None:
+    """Show what came."""
+    click.echo(repr((files, outer, bonds.friction, titles, numbers, page)))
+
+
+def said(*arguments: str) -> str:
+    return CliRunner().invoke(sample, arguments).output.strip()
+
+
+def test_values_arrive_in_the_unit_of_the_field():
+    got = said(
+        "a", "b", "--count", "2", "--stroke-mm", "7", "--friction", "0.3", "--title", "x", "--title", "y"
+    )
+    assert got == repr(
+        ((Path("a"), Path("b")), Outer(count=2, inner=Inner(0.007)), 0.3, ("x", "y"), None, True)
+    )
+    assert said("a", "--count", "1", "--numbers", "1,2.5", "--no-page") == repr(
+        ((Path("a"),), Outer(count=1), Bonds.friction, (), (1.0, 2.5), False)
+    )
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("--count", "1"), "Missing argument 'FILES...'"),
+        (("a",), "Missing option '--count'"),
+        (("a", "--count", "0"), "0 is not in the range x>=1"),
+        (
+            ("a", "--count", "1", "--stroke-mm", "1000.1"),
+            "'1000.1' must be a number at least 0 and at most 1000.",
+        ),
+        (("a", "--count", "1", "--stroke-mm", "nan"), "'nan' must be a number at least 0 and at most 1000."),
+        (("a", "--count", "1", "--numbers", "0"), "'0' is not different positive numbers joined by commas."),
+        (("a", "--count", "1", "--poisson", "0.2"), "No such option"),
+    ],
+)
+def test_what_is_wrong_is_said(arguments, sentence):
+    assert sentence in said(*arguments)
+
+
+def test_help_has_the_default_in_the_unit_of_the_option():
+    context = click.Context(sample, show_default=True)
+    words = " ".join(sample.get_help(context).split())
+    assert "--stroke-mm NUMBER Stroke, mm. [default: 6.0]" in words
+    assert "--count INTEGER RANGE How many. [x>=1; required]" in words and "kept" not in words
+
+
+def test_a_default_comes_back_as_the_field_has_it():
+    for name, one in _options.options_of(Vibration).items():
+        assert one.of_field(one.in_unit(one.default)) == getattr(Vibration(), name)
