@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import yaml
+from asphalt_nscd.study.schema import read_schema
 
 ROOT = Path(__file__).resolve().parents[1]
 WIDTH = 120
@@ -21,13 +21,14 @@ Run it with `make study CONFIG=my.yaml` or `snakemake --cores all --configfile m
 A key that is left out takes its default, which is the paper's value. An unknown key is refused. Paths are relative to
 the folder in which you call.
 
-This page is made from `workflow/schemas/study.schema.yaml` by `python tools/config_readme.py`.
+This page is made from `workflow/schemas/study.schema.yaml`, and the options that it names, by
+`python tools/config_readme.py`.
 """
 
 
 def page() -> str:
     """The whole file: a section for each key of the first level, a line for each key."""
-    schema = yaml.safe_load((ROOT / "workflow/schemas/study.schema.yaml").read_text(encoding="utf-8"))
+    schema = read_schema(ROOT / "workflow/schemas/study.schema.yaml")
     text, section = HEAD, ""
     for key, meaning, default in _keys(schema, schema, ""):
         if key.split(".")[0] != section:

@@ -3,6 +3,7 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pandas as pd
@@ -11,8 +12,10 @@ import yaml
 
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.options import options_of
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
+from asphalt_nscd.study.schema import read_schema
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = ROOT / "workflow/schemas/study.schema.yaml"
@@ -80,8 +83,36 @@ def test_every_key_of_the_schema_has_a_description():
                 yield f"{path}.{key}"
             yield from nameless(value, f"{path}.{key}")
 
-    schema = yaml.safe_load(SCHEMA.read_text())
+    schema = read_schema(SCHEMA)
     assert not list(nameless(schema, "")) + list(nameless(schema["$defs"]["trapezoid"], "trapezoid"))
+
+
+def test_a_key_that_is_an_option_bears_its_name():
+    def options(rule):
+        for key, value in rule.items() if isinstance(rule, dict) else ():
+            if isinstance(value, dict) and isinstance(value.get("option"), str):
+                yield key, value["option"]
+            yield from options(value)
+
+    named = list(options(yaml.safe_load(SCHEMA.read_text())))
+    assert len(named) > 20
+    for key, place in named:
+        module, kind, field = place.rsplit(".", 2)
+        assert options_of(getattr(import_module(f"asphalt_nscd.{module}"), kind))[field].key == key
+
+
+def test_a_limit_in_the_schema_comes_before_those_of_the_option():
+    rules = read_schema(SCHEMA)["properties"]["test"]["properties"]
+    said = "Number of cycles, starting from rest."
+    assert rules["cycles"] == {"description": said, "type": "integer", "minimum": 2, "default": 5}
+    assert rules["amplitude_m"].items() >= {"type": "number", "minimum": 1e-15, "maximum": 1}.items()
+
+
+def test_the_paper_has_the_defaults():
+    paper = yaml.safe_load((ROOT / "config/paper.yaml").read_text())
+    specimens = {key: value for key, value in paper["specimens"].items() if key not in ("deposit", "bonds")}
+    left_out = {key: value for key, value in paper.items() if key != "test"} | {"specimens": specimens}
+    assert complete(left_out) == complete(paper)
 
 
 def test_every_mapping_of_the_schema_refuses_unknown_keys():

@@ -17,6 +17,7 @@ from jsonschema.exceptions import ValidationError, best_match
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file, require_readable
 from asphalt_nscd.measurements.kinds import BENDING, PAPER_AMPLITUDE, usual_steps_per_cycle
+from asphalt_nscd.study.schema import read_schema
 
 # YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
 _SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
@@ -45,7 +46,7 @@ _OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
 
 def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -> dict[str, Any]:
     """A new mapping of a study that is checked against `schema`, with every default filled in."""
-    rules = yaml.safe_load(Path(schema).read_text(encoding="utf-8"))
+    rules = read_schema(schema)
     study = _numbers(copy.deepcopy(dict(config)))
     # `test: tension-compression` is short for its type.
     if isinstance(study.get("test"), str):

@@ -1,0 +1,52 @@
+"""The schema of a study. Of a key that is an option of a step, its field says help, type, range and default."""
+
+from __future__ import annotations
+
+from dataclasses import MISSING
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from asphalt_nscd.files.options import options_of
+
+_LIMITS = {"above": "exclusiveMinimum", "low": "minimum", "below": "exclusiveMaximum", "high": "maximum"}
+_TYPES = {float: "number", int: "integer", str: "string"}
+
+
+def read_schema(path: str | Path) -> dict[str, Any]:
+    """A schema file, with `option: specimen.settings.Surfaces.friction` replaced by what is said of that field.
+
+    Keywords beside `option` come before those of the field; a limit among them before all of its limits.
+    """
+    made: dict[str, Any] = _completed(yaml.safe_load(Path(path).read_text(encoding="utf-8")))
+    return made
+
+
+def _completed(rule: Any) -> Any:
+    if isinstance(rule, list):
+        return [_completed(part) for part in rule]
+    if not isinstance(rule, dict):
+        return rule
+    stated = {key: _completed(value) for key, value in rule.items() if key != "option"}
+    if not isinstance(rule.get("option"), str):
+        return {key: _completed(value) for key, value in rule.items()}
+    of_field, limits = _of_field(rule["option"]), set(_LIMITS.values())
+    replaced = limits if limits & set(stated) else set()
+    return {key: value for key, value in of_field.items() if key not in replaced} | stated
+
+
+def _of_field(place: str) -> dict[str, Any]:
+    """Keywords of the schema for `specimen.settings.Surfaces.friction`, in the unit of its key."""
+    module, kind, field = place.rsplit(".", 2)
+    said = options_of(getattr(import_module(f"asphalt_nscd.{module}"), kind))[field]
+    made: dict[str, Any] = {"description": said.help}
+    made |= {"enum": list(said.choices)} if said.choices else {"type": _TYPES[said.annotation]}
+    made |= {_LIMITS[name]: _short(said.in_unit(limit)) for name, limit in said.range.limits.items()}
+    return made if said.default in (None, MISSING) else made | {"default": _short(said.in_unit(said.default))}
+
+
+def _short(value: Any) -> Any:
+    """A number as one writes it: 6 for 6.0, but not a million and more."""
+    return int(value) if isinstance(value, float) and value.is_integer() and abs(value) < 1e6 else value
