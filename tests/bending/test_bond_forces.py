@@ -28,7 +28,7 @@ def test(beam, tmp_path_factory):
 def test_instants_are_spread_over_the_last_cycle_alone():
     """Thirty steps in three cycles of 10 ms: five instants are every second step of the last ten."""
     numerics = Numerics(time_step=1e-3)
-    assert numerics.framed(LoadCase(100.0, 1e-6, 3.0), 5).tolist() == [21, 23, 25, 27, 29]
+    assert LoadCase(100.0, 1e-6, 3.0).framed(numerics, 5).tolist() == [21, 23, 25, 27, 29]
 
 
 def test_bonds_that_grow_longer_are_in_tension(test):

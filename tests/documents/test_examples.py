@@ -15,11 +15,11 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 MODULES = [
     "api.arguments", "api.bending", "api.comparison", "api.contacts", "api.diagnosis", "api.exporting",
-    "api.fatigue", "api.forecasting", "api.laws", "api.reading", "api.specimens", "bending.case", "bending.condensing",
+    "api.fatigue", "api.forecasting", "api.laws", "api.reading", "api.specimens", "bending.case", "bending.settings",
     "bending.fatigue", "bending.rig", "diagnosis.run", "files.errors", "files.words", "measurements.signals",
-    "bending.hold", "measurements.twopoint",
+    "files.options", "files.ranges", "measurements.twopoint", "diagnosis.settings", "exports.settings",
     "nscd.contacts.friction", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.laws_of_modulus",
-    "rheology.parabolic", "rheology.shift", "specimen.deposit", "specimen.preparation",
+    "rheology.parabolic", "rheology.shift", "specimen.settings",
 ]  # fmt: skip
 
 

@@ -16,7 +16,7 @@ from asphalt_nscd.api.pictures import drawing, sheet, shown_in_notebooks
 from asphalt_nscd.api.results import Result
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told
-from asphalt_nscd.bending.case import RunOptions
+from asphalt_nscd.bending.case import RunOptions, load_case
 from asphalt_nscd.bending.condensing import condensed
 from asphalt_nscd.bending.hold import hold as of_hold
 from asphalt_nscd.bending.model import Model, model_of
@@ -230,7 +230,7 @@ def bend(
     """
     given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
     law = law if isinstance(law, Law) else Law.read(law)
-    case, options = load.at(frequency_Hz, given.geometry), RunOptions(frames=load.frames)
+    case, options = load_case(load, frequency_Hz, given.geometry), RunOptions(frames=load.frames)
     numerics = numerics or Numerics.usual(frequency_Hz, given.geometry)
     followed = law.of_bonds(frequency_Hz, temperature_C).bonds
     test = Test(

@@ -79,7 +79,7 @@ def run_test(
     require_possible(case, numerics, options)
     if case.by_force:
         return _by_force(model.whole, law, case, numerics, options)
-    times, rest = numerics.times(case), numerics.rest_steps
+    times, rest = case.times(numerics), numerics.rest_steps
     displacement = case.recorded(times)
     if numerics.method == "harmonic":
         return Record(times, displacement, _steady_force(model.whole, law, case, times), [], np.nan, {})
@@ -251,7 +251,7 @@ def outcome(
         **_velocity_profile(model.layers, record, frequency),
     }
     if record.frames:
-        times = record.time[numerics.framed(case, options.frames)]
+        times = record.time[case.framed(numerics, options.frames)]
         arrays |= {
             f"{FRAMES}/{name}": values for name, values in _framed(model.whole, times, record.frames).items()
         }

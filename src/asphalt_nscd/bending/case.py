@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.bending.rig import Rig
-from asphalt_nscd.bending.settings import MOST_STEPS, Numerics
+from asphalt_nscd.bending.settings import MOST_STEPS, Load, Numerics
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.ranges import Range
+from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.twopoint import PAPER_AMPLITUDE
 
 Vector = NDArray[np.float64]
@@ -47,6 +49,48 @@ class LoadCase:
         # at rest until the motion arrives at the channel
         return np.where(angle > 0.0, self.amplitude * np.sin(angle), 0.0)
 
+    def steps(self, numerics: Numerics) -> int:
+        """Number of steps of `numerics.time_step` while the head moves."""
+        # infinity cannot be rounded; 1e18 steps are refused in a sentence
+        return round(min(self.cycles / self.frequency / numerics.time_step, 1e18))
+
+    def times(self, numerics: Numerics) -> Vector:
+        """Ends (s,) of the steps while the head moves [s].
+
+        >>> LoadCase(frequency=100.0, cycles=0.3).times(Numerics(time_step=1e-3)).round(6).tolist()
+        [0.001, 0.002, 0.003]
+        """
+        return numerics.time_step * np.arange(1.0, self.steps(numerics) + 1.0)
+
+    def framed(self, numerics: Numerics, count: int) -> NDArray[np.int64]:
+        """The steps (f,) to keep, places in `times`: `count`, evenly over the last cycle, its end included."""
+        times = self.times(numerics)
+        # the instant a whole cycle before the end is the end again: left out, however it rounds
+        last = np.flatnonzero(times > times[-1] - (1.0 - 1e-9) / self.frequency)
+        # each once, where more frames are wanted than the cycle has steps
+        return np.unique(last[-1] - np.round(np.arange(count) * last.size / max(count, 1)).astype(int))
+
+    def driven(self, numerics: Numerics) -> Vector:
+        """Displacement (rest_steps + s,) of the actuator in every step, those at rest included [m]."""
+        return np.concatenate([np.zeros(numerics.rest_steps), self.actuator(self.times(numerics))])
+
+
+def load_case(load: Load, frequency_Hz: float, shape: Shape) -> LoadCase:
+    """The case of one frequency on specimens of a geometry, whose usual amplitude is taken where none is given.
+
+    >>> from asphalt_nscd.measurements.twopoint import PAPER
+    >>> print(f"{load_case(Load(frames=24), 10.0, PAPER).amplitude:.2g} m")
+    6.3e-05 m
+    """
+    if not Range(above=0.0).holds(frequency_Hz):
+        raise InputError(f"frequency_Hz = {frequency_Hz:g}: give a frequency greater than zero.")
+    if load.amplitude_N is not None:
+        if load.amplitude_m is not None:
+            raise InputError("load: give amplitude_m or amplitude_N, that of what is commanded.")
+        return LoadCase(frequency_Hz, load.amplitude_N, load.cycles, load.rig, by_force=True)
+    amplitude_m = shape.usual_amplitude() if load.amplitude_m is None else load.amplitude_m
+    return LoadCase(frequency_Hz, amplitude_m, load.cycles, load.rig)
+
 
 @dataclass(frozen=True)
 class RunOptions:
@@ -66,7 +110,7 @@ class RunOptions:
 
 def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) -> None:
     """Refuse too many steps, and a rig, scheme or frames that the method cannot do."""
-    method, scheme, count = numerics.method, numerics.scheme, numerics.steps(case) + numerics.rest_steps
+    method, scheme, count = numerics.method, numerics.scheme, case.steps(numerics) + numerics.rest_steps
     if count > MOST_STEPS:
         raise InputError(
             f"{count:.3g} steps of {numerics.time_step:g} s; a test takes at most {MOST_STEPS:g}: raise the time step "

@@ -7,7 +7,6 @@ from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range
-from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.nscd.bonds.head import HeadDevices
 
 KEYS = {
@@ -97,11 +96,15 @@ class Rig(HeadDevices):
 
 def write_rig(path: str | Path, rig: Rig) -> None:
     """Write a rig as JSON."""
+    from asphalt_nscd.files.store import write_json
+
     write_json(path, rig.columns())
 
 
 def read_rig(path: str | Path) -> Rig:
     """Read a rig from JSON with keys among `KEYS`; keys that are absent are zero."""
+    from asphalt_nscd.files.store import read_json
+
     content = read_json(path)
     if not isinstance(content, dict):
         raise InputError(f"{path}: not a rig; give an object with keys among {', '.join(KEYS.values())}.")

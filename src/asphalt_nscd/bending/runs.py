@@ -81,7 +81,7 @@ def reduced(
     one by one.
     """
     if numerics.scheme == "euler" and not (options.energy or options.frames):
-        return by_path(model, law, case.rig, numerics.time_step, numerics.driven(case), options)
+        return by_path(model, law, case.rig, numerics.time_step, case.driven(numerics), options)
     # a two-step scheme is an implicit Euler step of length dt / a from an extrapolated state
     stepper = _reduced_stepper(model.whole, law, numerics.time_step / _scheme(case, numerics).a, case.rig)
     return _certified(stepper, model, _one_by_one(stepper, model.whole, law, (case, numerics), options))
@@ -135,7 +135,7 @@ def sweeps(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, optio
     state = CondensedState.at_rest(model.system, law)
     tolerance, most = numerics.tolerance, numerics.most_sweeps
     stepper = SweepingStepper(model.system, law, numerics.time_step, state, tolerance, most)
-    run = _follow(stepper, np.concatenate([[0.0], numerics.driven(case)]), model.layers, options)
+    run = _follow(stepper, np.concatenate([[0.0], case.driven(numerics)]), model.layers, options)
     run.residual = stepper.largest_change
     run.details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most}
     return run
@@ -239,11 +239,11 @@ def _one_by_one(
     from asphalt_nscd.nscd.stepping.integrator import March
 
     case, numerics = what
-    driven, layers = numerics.driven(case), model.layers
+    driven, layers = case.driven(numerics), model.layers
     march = March(stepper, _scheme(case, numerics), law, numerics.time_step)
     run = _empty(driven.size, layers)
     small = stepper if isinstance(stepper, ReducedStepper) else None
-    framed = set((numerics.rest_steps + numerics.framed(case, options.frames)).tolist())
+    framed = set((numerics.rest_steps + case.framed(numerics, options.frames)).tolist())
     along = np.empty((0, 0)) if small is None else layers.mean @ small.model.basis
     for n in range(driven.size):
         try:

@@ -14,9 +14,7 @@ from asphalt_nscd.measurements.kinds import usual_steps_per_cycle
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
 
-    from asphalt_nscd.bending.case import LoadCase, Vector
     from asphalt_nscd.measurements.shape import Shape
 
 # blocked, |E*| of the paper's specimen is 2.6 times that of its law, free 1.1 (bond_readings.csv)
@@ -36,15 +34,17 @@ class Bonds(Ranged):
     Parameters
     ----------
     head : str
-        "free" or "blocked".
+        Rotation of the driven head, free as the form factor assumes, or blocked.
     poisson : float
-        nu of Eqs. (8)-(11), for bonds by area "paper".
+        Poisson's ratio in Eqs. (8)-(11), which give a bond's tangential stiffness from its normal one. Used
+        with area paper.
     kt_over_kn : float
-        Tangential over normal stiffness, for bonds by area "facets".
+        Tangential over normal stiffness of a bond. Used with area facets; with 1 a uniform strain is exact in
+        any packing.
     yield_Pa : float
-        Stress at which a bond breaks [Pa].
+        Stress at which a bond between two spheres breaks, Pa.
     friction : float
-        Where the gap of a broken bond closes.
+        Coefficient of friction where a bond is broken or a gap closes.
 
     Examples
     --------
@@ -52,30 +52,14 @@ class Bonds(Ranged):
     1.0
     """
 
-    head: str = option(
-        "Rotation of the driven head, free as the form factor assumes, or blocked.", "free", choices=HEADS
-    )
+    head: str = option(default="free", choices=HEADS)
     # a network then shows 0.16
-    poisson: float = option(
-        "Poisson's ratio in Eqs. (8)-(11), which give a bond's tangential stiffness from its normal one. Used with "
-        "area paper.",
-        0.35,
-        above=-1.0,
-        high=0.5,
-    )
+    poisson: float = option(default=0.35, above=-1.0, high=0.5)
     # one is the modulus of the law (facet_network)
-    kt_over_kn: float = option(
-        "Tangential over normal stiffness of a bond. Used with area facets; with 1 a uniform strain is exact in any "
-        "packing.",
-        1.0,
-        low=1e-4,
-        high=10.0,
-    )
+    kt_over_kn: float = option(default=1.0, low=1e-4, high=10.0)
     # the paper's, which names no test behind it
-    yield_Pa: float = option("Stress at which a bond between two spheres breaks, Pa.", 2.7e6, low=1.0)
-    friction: float = option(
-        "Coefficient of friction where a bond is broken or a gap closes.", 0.7, low=0.0, high=100.0
-    )
+    yield_Pa: float = option(default=2.7e6, low=1.0)
+    friction: float = option(default=0.7, low=0.0, high=100.0)
 
 
 @dataclass(frozen=True)
@@ -85,47 +69,31 @@ class Numerics(Ranged):
     Parameters
     ----------
     time_step : float
-        Of implicit steps [s].
+        Time step, s. Other tests than two-point bending take 200 steps per cycle unless it is given.
     rest_steps : int
-        Under gravity, before the head moves.
+        Time steps at rest under gravity before the test.
     method : str
-        "reduced", "condensed", "sweeps", or "harmonic", which gives the steady oscillation of the unbroken
-        system, without gravity or transient.
+        Reduced form, full condensed system, plain Gauss-Seidel on the bonds, or steady oscillation.
     scheme : str
-        One of `SCHEMES`, for "reduced" and "condensed".
+        Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do.
     tolerance : float
-        Relative change in a sweep that ends the Gauss-Seidel iterations of "sweeps".
+        Relative change per sweep that stops Gauss-Seidel.
     most_sweeps : int
-        In a step of "sweeps".
+        Largest number of Gauss-Seidel sweeps in a step.
 
     Examples
     --------
-    >>> Numerics(time_step=1e-3).times(LoadCase(frequency=100.0, cycles=0.3)).round(6).tolist()
-    [0.001, 0.002, 0.003]
+    >>> Numerics(time_step=1e-3).scheme
+    'euler'
     """
 
     # at 15 degC and 3 Hz solved steps from 2e-5 to 2e-4 s give one |E*| within 0.03 % (docs/results.md)
-    time_step: float = option(
-        "Time step, s. Other tests than two-point bending take 200 steps per cycle unless it is given.",
-        5e-5,
-        key="time_step_s",
-        above=0.0,
-    )
-    rest_steps: int = option(
-        "Time steps at rest under gravity before the test.", 1000, low=0, high=MOST_STEPS
-    )
-    method: str = option(
-        "Reduced form, full condensed system, plain Gauss-Seidel on the bonds, or steady oscillation.",
-        "reduced",
-        choices=METHODS,
-    )
-    scheme: str = option(
-        "Implicit Euler, or BDF2 fitted to the frequency: exact in steady oscillation, 100 steps a cycle do.",
-        "euler",
-        choices=SCHEMES,
-    )
-    tolerance: float = option("Relative change per sweep that stops Gauss-Seidel.", 1e-4, low=0.0)
-    most_sweeps: int = option("Largest number of Gauss-Seidel sweeps in a step.", 50, low=1, high=100_000)
+    time_step: float = option(default=5e-5, key="time_step_s", above=0.0)
+    rest_steps: int = option(default=1000, low=0, high=MOST_STEPS)
+    method: str = option(default="reduced", choices=METHODS)
+    scheme: str = option(default="euler", choices=SCHEMES)
+    tolerance: float = option(default=1e-4, low=0.0)
+    most_sweeps: int = option(default=50, low=1, high=100_000)
 
     @classmethod
     def usual(cls, frequency_Hz: float, shape: Shape) -> Numerics:
@@ -145,79 +113,6 @@ class Numerics(Ranged):
         """
         steps = usual_steps_per_cycle(shape.test)
         return cls(1.0 / (frequency_Hz * steps), scheme="fitted") if steps else cls()
-
-    def steps(self, case: LoadCase) -> int:
-        """Number of steps while the head moves.
-
-        Parameters
-        ----------
-        case : LoadCase
-            Frequency and cycles.
-
-        Returns
-        -------
-        int
-            Steps of `time_step`.
-        """
-        # infinity cannot be rounded; 1e18 steps are refused in a sentence
-        return round(min(case.cycles / case.frequency / self.time_step, 1e18))
-
-    def times(self, case: LoadCase) -> Vector:
-        """Ends of the steps while the head moves.
-
-        Parameters
-        ----------
-        case : LoadCase
-            Frequency and cycles.
-
-        Returns
-        -------
-        ndarray (s,)
-            Times [s].
-        """
-        import numpy as np
-
-        return self.time_step * np.arange(1.0, self.steps(case) + 1.0)
-
-    def framed(self, case: LoadCase, count: int) -> NDArray[np.int64]:
-        """The steps to keep, evenly over the last cycle, its end included.
-
-        Parameters
-        ----------
-        case : LoadCase
-            Frequency and cycles.
-        count : int
-            How many instants.
-
-        Returns
-        -------
-        ndarray of int (f,)
-            Places in `times`.
-        """
-        import numpy as np
-
-        times = self.times(case)
-        # the instant a whole cycle before the end is the end again: left out, however it rounds
-        last = np.flatnonzero(times > times[-1] - (1.0 - 1e-9) / case.frequency)
-        # each once, where more frames are wanted than the cycle has steps
-        return np.unique(last[-1] - np.round(np.arange(count) * last.size / max(count, 1)).astype(int))
-
-    def driven(self, case: LoadCase) -> Vector:
-        """Displacement of the actuator in every step, those at rest included.
-
-        Parameters
-        ----------
-        case : LoadCase
-            Frequency, amplitude and cycles.
-
-        Returns
-        -------
-        ndarray (rest_steps + s,)
-            [m].
-        """
-        import numpy as np
-
-        return np.concatenate([np.zeros(self.rest_steps), case.actuator(self.times(case))])
 
 
 @dataclass(frozen=True)
@@ -240,78 +135,29 @@ class Load(Ranged):
     Parameters
     ----------
     amplitude_m : float, optional
-        Of the head [m]. Without it the strain is usual: in bending that of the paper's 63 um on its own
-        specimen, in tension-compression 50e-6.
+        Amplitude of the head's displacement, m. Default is the paper's 63e-6 in two-point bending, and what
+        strains other specimens by 50e-6.
     cycles : float
-        How many; the last two give E*.
+        Number of cycles, starting from rest.
     rig : Rig
         Devices at the head, and errors of the measuring channel.
     frames : int
-        How many instants of the last cycle to keep with the motion of all spheres and the forces of all
-        bonds, for a series of ParaView.
+        Instants of the last cycle of which to keep the motion of all spheres and the forces of all bonds; 24
+        bytes a sphere and 12 a bond each, before they are packed.
     amplitude_N : float, optional
-        Of the force [N], which is then commanded.
+        Amplitude of the force, N: it is commanded, the displacement measured, and the weight tared.
 
     Examples
     --------
-    >>> from asphalt_nscd.measurements.twopoint import PAPER
-    >>> print(f"{Load(frames=24).at(10.0, PAPER).amplitude:.2g} m")
-    6.3e-05 m
+    >>> Load(frames=24).cycles
+    5.0
     """
 
-    amplitude_m: float | None = option(
-        "Amplitude of the head's displacement, m. Default is the paper's 63e-6 in two-point bending, and what strains "
-        "other specimens by 50e-6.",
-        None,
-        low=1e-15,
-        high=1.0,
-    )
-    cycles: float = option("Number of cycles, starting from rest.", 5.0, low=1.0)
+    amplitude_m: float | None = option(default=None, low=1e-15, high=1.0)
+    cycles: float = option(default=5.0, low=1.0)
     rig: Rig = Rig()
-    frames: int = option(
-        "Instants of the last cycle of which to keep the motion of all spheres and the forces of all bonds; 24 bytes a "
-        "sphere and 12 a bond each, before they are packed.",
-        0,
-        low=0,
-        high=10_000,
-    )
-    amplitude_N: float | None = option(
-        "Amplitude of the force, N: it is commanded, the displacement measured, and the weight tared.",
-        None,
-        low=1e-9,
-        high=1e9,
-    )
-
-    def at(self, frequency_Hz: float, shape: Shape) -> LoadCase:
-        """The case of one frequency on specimens of a geometry.
-
-        Parameters
-        ----------
-        frequency_Hz : float
-            Of the actuator [Hz].
-        shape : Shape
-            Geometry, whose usual amplitude is taken where none is given.
-
-        Returns
-        -------
-        LoadCase
-            What the actuator does.
-
-        Raises
-        ------
-        InputError
-            For a frequency that is not greater than zero, or both amplitudes.
-        """
-        from asphalt_nscd.bending.case import LoadCase
-
-        if not Range(above=0.0).holds(frequency_Hz):
-            raise InputError(f"frequency_Hz = {frequency_Hz:g}: give a frequency greater than zero.")
-        if self.amplitude_N is not None:
-            if self.amplitude_m is not None:
-                raise InputError("load: give amplitude_m or amplitude_N, that of what is commanded.")
-            return LoadCase(frequency_Hz, self.amplitude_N, self.cycles, self.rig, by_force=True)
-        amplitude_m = shape.usual_amplitude() if self.amplitude_m is None else self.amplitude_m
-        return LoadCase(frequency_Hz, amplitude_m, self.cycles, self.rig)
+    frames: int = option(default=0, low=0, high=10_000)
+    amplitude_N: float | None = option(default=None, low=1e-9, high=1e9)
 
 
 @dataclass(frozen=True)
@@ -321,14 +167,13 @@ class Hold(Ranged):
     Parameters
     ----------
     duration_s : float
-        Of the test [s].
+        How long, s.
     steps : int
-        Of equal length.
+        Equal time steps; errors fall with their length.
     force_N : float, optional
-        Held on the head [N]: creep.
+        Force held, N: creep.
     displacement_m : float, optional
-        Held at the head [m]: relaxation. Without either it is relaxation too, at the amplitude of usual
-        tests.
+        Displacement of the head held, m: relaxation. The default, at the amplitude of usual tests.
 
     Raises
     ------
@@ -341,15 +186,10 @@ class Hold(Ranged):
     0.02
     """
 
-    duration_s: float = option("How long, s.", 10.0, low=1e-6, high=1e9)
-    steps: int = option("Equal time steps; errors fall with their length.", 1000, low=10, high=MOST_STEPS)
-    force_N: float | None = option("Force held, N: creep.", None, low=-1e9, high=1e9)
-    displacement_m: float | None = option(
-        "Displacement of the head held, m: relaxation. The default, at the amplitude of usual tests.",
-        None,
-        low=-1.0,
-        high=1.0,
-    )
+    duration_s: float = option(default=10.0, low=1e-6, high=1e9)
+    steps: int = option(default=1000, low=10, high=MOST_STEPS)
+    force_N: float | None = option(default=None, low=-1e9, high=1e9)
+    displacement_m: float | None = option(default=None, low=-1.0, high=1.0)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -431,9 +271,9 @@ class FatigueLaw(Ranged):
     Parameters
     ----------
     endured : float
-        The e that uses a bond up in a million cycles.
+        Amplitude of strain that uses a bond up in a million cycles.
     exponent : float
-        Minus one over the slope b of the Wöhler line of specimens, log e = log e6 + b log (N / 1e6).
+        By which its life falls with strain.
 
     Examples
     --------
@@ -442,10 +282,8 @@ class FatigueLaw(Ranged):
     3.2e-05
     """
 
-    endured: float = option(
-        "Amplitude of strain that uses a bond up in a million cycles.", 100e-6, range=STRAINS
-    )
-    exponent: float = option("By which its life falls with strain.", 5.0, low=1.0, high=20.0)
+    endured: float = option(default=100e-6, range=STRAINS)
+    exponent: float = option(default=5.0, low=1.0, high=20.0)
 
     def rate(self, amplitude: np.ndarray) -> np.ndarray:
         """Damage per cycle.

@@ -58,7 +58,7 @@ def command(
             "for each frequency, and one --law or one for each."
         )
     from asphalt_nscd.bending.bending_test import TestFiles, damage, read_subject, simulate, told
-    from asphalt_nscd.bending.case import RunOptions
+    from asphalt_nscd.bending.case import RunOptions, load_case
 
     # Read once for all frequencies: 400 jobs of a study became 80.
     specimen, steps = read_subject(model, tests.excerpt), fitted.steps_per_cycle
@@ -76,7 +76,7 @@ def command(
                 energy=run.energy,
                 frames=load.frames,
             )
-            case = load.at(frequency, specimen.geometry)
+            case = load_case(load, frequency, specimen.geometry)
             columns = simulate(files, tests.temperature_C, case, numerics, options, specimen)
         click.echo(told(columns))
         if columns["broken_bonds"]:

@@ -17,9 +17,9 @@ class Draws:
     Parameters
     ----------
     number : int
-        Tables drawn without any cause.
+        Draws of the chance level.
     seed : int
-        The same seed gives the same diagnosis.
+        Seed of the random draws that give the chance level.
 
     Examples
     --------
@@ -27,8 +27,8 @@ class Draws:
     Draws(number=500, seed=0)
     """
 
-    number: int = option("Draws of the chance level.", 4000, key="draws", low=500, high=10**6)
-    seed: int = option("Seed of the random draws that give the chance level.", 0, low=0)
+    number: int = option(default=4000, key="draws", low=500, high=10**6)
+    seed: int = option(default=0, low=0)
 
 
 @dataclass(frozen=True)
@@ -38,11 +38,11 @@ class Simulated:
     Parameters
     ----------
     campaign : path, optional
-        Table of simulated tests, to say what in them is numerics.
+        Simulated tests of the campaign, to say what in them is numerics.
     facets : path, optional
-        Table of the same tests with bonds that are facets, to judge bond_mapping.
+        The same tests on specimens bonded by facets, to say what the paper's bonds make of |E*|.
     specimen : path, optional
-        Numerical specimen, a file of `asphalt-nscd reduced-specimen`; else the one shipped.
+        Numerical specimen, a file of `reduced-specimen`; else the one shipped.
 
     Examples
     --------
@@ -50,15 +50,9 @@ class Simulated:
     True
     """
 
-    specimen: str | Path | None = option(
-        "Numerical specimen, a file of `reduced-specimen`; else the one shipped.", None
-    )
-    campaign: str | Path | None = option(
-        "Simulated tests of the campaign, to say what in them is numerics.", None, key="simulations"
-    )
-    facets: str | Path | None = option(
-        "The same tests on specimens bonded by facets, to say what the paper's bonds make of |E*|.", None
-    )
+    campaign: str | Path | None = option(default=None, key="simulations")
+    facets: str | Path | None = option(default=None)
+    specimen: str | Path | None = option(default=None)
 
 
 @dataclass(frozen=True)
@@ -68,12 +62,12 @@ class Known:
     Parameters
     ----------
     static_modulus_MPa : float, optional
-        Of the mix at long times [MPa].
+        Modulus of the mix at long times, MPa, if another test gave it. Only then can a spring at the head be
+        found.
     scatter : tuple of float, optional
         Standard deviations of one test: |E*| in % and phase in degrees; else they come from replicates.
     law : str
-        Form that the law of the mix is given: "2s2p1d", "huet-sayegh", "sigmoid" (AASHTO R 84, MEPDG) or
-        "cam". All four are compared.
+        Form of the law in law.json; sigmoid is that of AASHTO R 84. Misfits of all four are compared.
 
     Examples
     --------
@@ -81,17 +75,9 @@ class Known:
     True
     """
 
-    static_modulus_MPa: float | None = option(
-        "Modulus of the mix at long times, MPa, if another test gave it. Only then can a spring at the head be found.",
-        None,
-        low=0.0,
-    )
+    static_modulus_MPa: float | None = option(default=None, low=0.0)
     scatter: tuple[float, float] | None = None
-    law: str = option(
-        "Form of the law in law.json; sigmoid is that of AASHTO R 84. Misfits of all four are compared.",
-        "2s2p1d",
-        choices=LAWS,
-    )
+    law: str = option(default="2s2p1d", choices=LAWS)
 
 
 @dataclass(frozen=True)

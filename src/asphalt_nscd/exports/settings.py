@@ -16,15 +16,15 @@ class ExportSettings(Ranged):
     Parameters
     ----------
     error_percent : float
-        Largest error of |E*| over the tested band [%].
+        Largest error of |E*| of the Prony series.
     error_deg : float
-        Largest error of the phase over the tested band [degrees].
+        Largest error of its phase, degrees.
     poisson : float, optional
-        Poisson's ratio; None for 0.35, said to be assumed.
+        Poisson's ratio; else 0.35, which the file calls assumed.
     units : str
-        "SI" or "mm-N-MPa".
+        Units of the file.
     name : str
-        Of the material.
+        Name of the material (abaqus).
 
     Examples
     --------
@@ -32,10 +32,8 @@ class ExportSettings(Ranged):
     0.5
     """
 
-    error_percent: float = option("Largest error of |E*| of the Prony series.", 1.0, above=0.0)
-    error_deg: float = option("Largest error of its phase, degrees.", 0.5, above=0.0)
-    poisson: float | None = option(
-        "Poisson's ratio; else 0.35, which the file calls assumed.", None, above=-1.0, below=0.5
-    )
-    units: str = option("Units of the file.", "SI", choices=UNITS)
-    name: str = option("Name of the material (abaqus).", "ASPHALT")
+    error_percent: float = option(default=1.0, above=0.0)
+    error_deg: float = option(default=0.5, above=0.0)
+    poisson: float | None = option(default=None, above=-1.0, below=0.5)
+    units: str = option(default="SI", choices=UNITS)
+    name: str = option(default="ASPHALT")

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
-from dataclasses import MISSING, dataclass, field, fields
+from dataclasses import MISSING, dataclass, field, fields, replace
 from functools import cache
+from inspect import getdoc
 from numbers import Real
 from types import NoneType
 from typing import Any, get_args, get_type_hints
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range
+
+_DESCRIBED = re.compile(r"^(\w+) : .*\n((?:    .+(?:\n|$))+)", re.MULTILINE)  # a parameter, in numpydoc form
 
 
 @dataclass(frozen=True)
@@ -31,16 +35,6 @@ class Option:
     choices: Sequence[str]
     type: Any
 
-    @property
-    def required(self) -> bool:
-        """Whether it must be given."""
-        return self.default is MISSING
-
-    @property
-    def as_given(self) -> Any:
-        """The default in the unit of the key."""
-        return self.in_unit(self.default)
-
     def in_unit(self, value: Any) -> Any:
         """A value of the field in the unit of the key."""
         return value if self.unit == 1.0 or value is None or value is MISSING else value / self.unit
@@ -50,11 +44,11 @@ class Option:
         return value if self.unit == 1.0 or value is None else value * self.unit
 
 
-def option(help: str, default: Any = MISSING, **said: Any) -> Any:
+def option(help: str = "", default: Any = MISSING, **said: Any) -> Any:
     """A field of a dataclass, or a parameter of a command, that is an option.
 
     said: `key`, `name`, `unit`, `choices`, `type`, `range` of `Option`, or the limits of a range. Without a default it
-    must be given.
+    must be given; without help the docstring of its class, in numpydoc form, gives it.
     """
     limits = {name: said.pop(name) for name in ("above", "low", "below", "high") if name in said}
     return field(default=default, metadata={"help": help, "range": Range(**limits), **said})
@@ -73,13 +67,17 @@ def options_of(kind: Any) -> dict[str, Option]:
     """Options of a dataclass by the names of their fields.
 
     >>> from asphalt_nscd.specimen.settings import Vibration
-    >>> stroke = options_of(Vibration)["stroke"]
-    >>> stroke.key, stroke.as_given, str(stroke.range)
-    ('stroke_mm', 6.0, 'at least 0 and at most 1')
+    >>> said = options_of(Vibration)["frequency"]
+    >>> said.key, said.default, str(said.range), said.help
+    ('vibration_Hz', 30.0, 'greater than 0 and at most 1000', 'Frequency of the top wall, Hz.')
     """
-    hints = get_type_hints(kind)
-    return {
+    hints, described = get_type_hints(kind), dict(_DESCRIBED.findall(getdoc(kind) or ""))
+    made = {
         one.name: option_of(one.name, one, hints[one.name]) for one in fields(kind) if "help" in one.metadata
+    }
+    return {
+        name: replace(said, help=said.help or " ".join(described.get(name, "").split()))
+        for name, said in made.items()
     }
 
 

@@ -23,11 +23,11 @@ class Surfaces(Ranged):
     Parameters
     ----------
     friction : float
-        Coefficient between spheres.
+        Coefficient of friction between spheres while pouring; with walls too, unless theirs is given.
     wall_friction : float, optional
-        Coefficient with walls; None for that between spheres.
+        Coefficient of friction with walls; if not given, that between spheres.
     restitution : float
-        Of an impact, with spheres and walls.
+        Speed after an impact over that before it.
 
     Examples
     --------
@@ -35,17 +35,10 @@ class Surfaces(Ranged):
     0.3
     """
 
-    friction: float = option(
-        "Coefficient of friction between spheres while pouring; with walls too, unless theirs is given.",
-        0.2,
-        low=0.0,
-        high=100.0,
-    )
+    friction: float = option(default=0.2, low=0.0, high=100.0)
     # smooth walls lower the usual layer from 63.5 to 62.1 mm (docs/pouring.md)
-    wall_friction: float | None = option(
-        "Coefficient of friction with walls; if not given, that between spheres.", None, low=0.0, high=100.0
-    )
-    restitution: float = option("Speed after an impact over that before it.", 0.0, low=0.0, below=1.0)
+    wall_friction: float | None = option(default=None, low=0.0, high=100.0)
+    restitution: float = option(default=0.0, low=0.0, below=1.0)
 
 
 @dataclass(frozen=True)
@@ -55,11 +48,11 @@ class Vibration(Ranged):
     Parameters
     ----------
     stroke : float
-        Crest to crest [m].
+        Stroke of the top wall from crest to crest, about the top of the layer, m.
     frequency : float
-        [Hz].
+        Frequency of the top wall, Hz.
     duration : float
-        [s]; zero for none.
+        Duration of the vibration, s; 0 for none.
 
     Examples
     --------
@@ -76,17 +69,8 @@ class Vibration(Ranged):
         low=0.0,
         high=1.0,
     )
-    frequency: float = option(
-        "Frequency of the top wall, Hz.", 30.0, name="frequency_Hz", key="vibration_Hz", above=0.0, high=1e3
-    )
-    duration: float = option(
-        "Duration of the vibration, s; 0 for none.",
-        1.0,
-        name="duration_s",
-        key="vibration_s",
-        low=0.0,
-        high=60.0,
-    )
+    frequency: float = option(default=30.0, name="frequency_Hz", key="vibration_Hz", above=0.0, high=1e3)
+    duration: float = option(default=1.0, name="duration_s", key="vibration_s", low=0.0, high=60.0)
 
 
 @dataclass(frozen=True)
