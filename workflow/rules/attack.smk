@@ -6,7 +6,9 @@
 sys.path.insert(0, str(CLONE / "trials"))
 from attack.trial import Size
 
-ATTACK_COMMAND = f"env PYTHONPATH={CLONE / 'trials'}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m attack"
+ATTACK_COMMAND = (
+    f"env PYTHONPATH={CLONE / 'trials'}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m attack"
+)
 ATTACK_CODE = sorted(os.path.relpath(path) for path in (CLONE / "trials/attack").glob("*.py"))
 ATTACK_PARTS = 16  # jobs, each with every sixteenth campaign: all kinds in each
 ATTACK_TABLES = "cases names by_fault coverage reliability before summary".split()
@@ -15,19 +17,19 @@ BEFORE = "results/published/attack/before.csv"
 
 
 rule attack_part:
-    # Some campaigns, as they are and with faults: one line for each diagnosis.
+    """Some campaigns, as they are and with faults: one line for each diagnosis."""
     input:
         code=code("diagnose", *modules_of("diagnosis.causes")),
         generator=ATTACK_CODE,
     output:
         "results/attack/parts/{number}.jsonl",
-    params:
-        campaigns=lambda wildcards: [*range(int(wildcards.number), Size(**ATTACK).all, ATTACK_PARTS)],
-        size=options(ATTACK),
     log:
         "results/attack/logs/parts/{number}.log",
     benchmark:
         "results/attack/benchmarks/parts/{number}.tsv"
+    params:
+        campaigns=lambda wildcards: [*range(int(wildcards.number), Size(**ATTACK).all, ATTACK_PARTS)],
+        size=options(ATTACK),
     message:
         "Attack the diagnosis, part {wildcards.number}"
     shell:
@@ -35,7 +37,7 @@ rule attack_part:
 
 
 rule attack_tables:
-    # Beside the rates of an earlier commit, which are kept.
+    """Beside the rates of an earlier commit, which are kept."""
     input:
         lines=expand("results/attack/parts/{number}.jsonl", number=range(min(ATTACK_PARTS, Size(**ATTACK).all))),
         generator=ATTACK_CODE,
@@ -44,10 +46,10 @@ rule attack_tables:
         [f"results/attack/{name}.csv" for name in ATTACK_TABLES],
         multiext("results/attack/figures/reliability", ".pdf", ".png", ".svg"),
         "results/attack/campaign.json",
-    params:
-        before=lambda wildcards, input: f"--before {input.before}" if input.before else "",
     log:
         "results/attack/logs/tables.log",
+    params:
+        before=lambda wildcards, input: f"--before {input.before}" if input.before else "",
     message:
         "Compare what was put in with what was said"
     shell:
@@ -55,7 +57,7 @@ rule attack_tables:
 
 
 rule attack_machines:
-    # An offset that no campaign of a machine shows alone, and what NCAT's campaigns share: six minutes of one core.
+    """An offset that no campaign of a machine shows alone, and what NCAT's campaigns share: six minutes of one core."""
     input:
         code=code("diagnose", *modules_of("diagnosis.causes")),
         generator=ATTACK_CODE,
@@ -63,10 +65,10 @@ rule attack_machines:
         rows="results/attack/machines.csv",
         summary="results/attack/machines_summary.csv",
         measured="results/attack/machine_measured.csv",
-    params:
-        number=MACHINES,
     log:
         "results/attack/logs/machines.log",
+    params:
+        number=MACHINES,
     message:
         "Pool the campaigns of {params.number} machines"
     shell:
@@ -74,9 +76,13 @@ rule attack_machines:
 
 
 rule attack:
-    # What is committed of the attack, and its table in docs.
+    """What is committed of the attack, and its table in docs."""
     input:
-        files=[one for one in [*rules.attack_tables.output, *rules.attack_machines.output] if not one.endswith((".pdf", ".svg"))],
+        files=[
+            one
+            for one in [*rules.attack_tables.output, *rules.attack_machines.output]
+            if not one.endswith((".pdf", ".svg"))
+        ],
         machines=rules.attack_machines.output.summary,
         measured=rules.attack_machines.output.measured,
         summary="results/attack/summary.csv",

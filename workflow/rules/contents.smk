@@ -1,18 +1,16 @@
 # What the report holds, and from which files it is made.
 
-SIMULATIONS = ["<results>/simulations.csv"]
 MEASURED = ["<results>/measured.csv"]
-EXTENDED_SIMULATIONS = ["<results>/extended.csv"] if COMMON_LAW else []
-USED_LAWS = expand(f"<results>/laws/{LAWS}/T{{temperature}}.json", temperature=TEMPERATURES)
+USED_LAWS = expand(LAW, temperature=TEMPERATURES)
 FITTED_LAWS = expand("<results>/laws/fitted/T{temperature}.json", temperature=TEMPERATURES)
 TYPICAL = TEMPERATURES[len(TEMPERATURES) // 2]  # where the study names no other
-SOFTER = label(SENSITIVITY["temperature_C"]) if "sensitivity" in STUDY else TYPICAL
+SOFTER = label(SENSITIVITY["temperature_C"]) if SENSITIVITY else TYPICAL
 FIRST = SAMPLES[0]
 
 RESIDUALS = {"diagnosis": DIAGNOSED[:1], "residuals": DIAGNOSED[1:2]}
 
 ELEMENT = {
-    "laws": [f"<results>/laws/{LAWS}/T{label(AUDIT['temperature_C']) if 'audit' in STUDY else TYPICAL}.json"],
+    "laws": expand(LAW, temperature=label(AUDIT["temperature_C"]) if AUDIT else TYPICAL),
     "study": ["<results>/study.json"],
 }
 
@@ -25,12 +23,12 @@ FIGURES = {
     "fig01": ("1 Measurements and laws", {"study": ["<results>/study.json"]}),
     "fig07": (
         "3 Bending tests",
-        {"test": expand(TESTS, sample=FIRST, temperature=TYPICAL, frequency=max(FREQUENCIES, key=float))},
+        {"test": TESTS["simulate"].files(sample=FIRST, temperature=TYPICAL, frequency=max(FREQUENCIES, key=float))},
     ),
     "fig08": (
         "3 Bending tests",
         {
-            "test": expand(TESTS, sample=FIRST, temperature=SOFTER, frequency=min(FREQUENCIES, key=float)),
+            "test": TESTS["simulate"].files(sample=FIRST, temperature=SOFTER, frequency=min(FREQUENCIES, key=float)),
             "specimen": [f"<results>/specimens/{FIRST}.h5"],
         },
     ),
@@ -38,7 +36,7 @@ FIGURES = {
     "fig10": ("3 Bending tests", {"simulations": SIMULATIONS, "measured": MEASURED, "laws": USED_LAWS}),
     "fig_forces": (
         "3 Bending tests",
-        {"model": [f"<results>/models/{HEAD}/{FIRST}.h5"], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
+        {"model": [f"{model()}.h5".format(sample=FIRST)], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
     ),
     "fig_ratio": ("3 Bending tests", {"simulations": SIMULATIONS}),
 }
@@ -104,14 +102,14 @@ if "published" in STUDY:
                 "laws": [STUDY["laws"]["published"]["table"]],
                 "errors": [STUDY["published"]["errors_table"]],
             }
-if "time_step_study" in STUDY:
-    FIGURES["fig06"] = ("4 Time step", {"solved": SOLVED, "part": [PART_SOLVED], "stopped": STOPPED})
+if STEPPING:
+    FIGURES["fig06"] = ("4 Time step", {"solved": SOLVED, "part": PART_SOLVED, "stopped": STOPPED})
     PAGES["time_steps"] = "4 Time step"
     TABLES["time_steps"] = FIGURES["fig06"][1] | {
-        "law": [f"<results>/laws/{LAWS}/T{label(STEPPING['temperature_C'])}.json"],
-        "model": [MODEL.format(sample=f"s{STEPPING['seed']}")],
+        "law": expand(LAW, temperature=STEPPED["temperature"]),
+        "model": expand(f"{model()}.h5", sample=STEPPED["sample"]),
     }
-if "sensitivity" in STUDY:
+if SENSITIVITY:
     PAGES["sensitivity"] = "5 Sensitivity"
     for name, parameter in {"fig11": "Em", "fig12": "eta_m", "fig13": "Ek", "fig14": "eta_k"}.items():
         if parameter in SENSITIVITY["parameters"]:
@@ -121,10 +119,10 @@ if "sensitivity" in STUDY:
                     "sensitivity": ["<results>/sensitivity.csv"],
                     "simulations": SIMULATIONS,
                     "measured": MEASURED,
-                    "laws": [f"<results>/laws/{LAWS}/T{label(SENSITIVITY['temperature_C'])}.json"],
+                    "laws": expand(LAW, temperature=SOFTER),
                 },
             )
-if "audit" in STUDY:
+if AUDIT:
     PAGES["readings"] = "6 Audit"
     FIGURES["fig_readings"] = ("6 Audit", {"readings": ["<results>/readings.csv"], "simulations": SIMULATIONS})
     PAGES["bond_readings"] = "6 Audit"
@@ -132,8 +130,8 @@ if "audit" in STUDY:
         "deposits": [*DEPOSITS, *expand("<results>/deposits/{sample}.h5", sample=PACKED[1:])],
         "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
         "simulations": SIMULATIONS,
-        "packing": ["<results>/packing.csv"] if "packing_study" in STUDY else [],
-        "blocked": expand(AUDITED[:1], reading="blocked"),
+        "packing": ["<results>/packing.csv"] if PACKING else [],
+        "blocked": BLOCKED[:1],
     }
 if LIKELY and "published" in STUDY:
     PAGES["likely"] = PAGES["levels"] = "6 Audit"
@@ -142,8 +140,13 @@ if LIKELY and "published" in STUDY:
         "likely": LIKELY_SIMULATIONS,
         "errors": [STUDY["published"]["errors_table"]],
     }
-if "packing_study" in STUDY:
+if PACKING:
     PAGES["packing"] = "2 Preparation"
+    TABLES["packing"] = {
+        "tests": PACKING_TESTS,
+        "facets": PACKING_FACETS,
+        "deposits": expand("<results>/deposits/{sample}.h5", sample=PACKED),
+    }
     FIGURES["fig_packing"] = ("2 Preparation", {"packing": ["<results>/packing.csv"]})
 if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= set(STUDY):
     PAGES["audit"] = "6 Audit"
@@ -222,7 +225,7 @@ RESULTS = [
 
 # `all` asks for each file by name. Of one that a failed run left missing between others, which are there and newer,
 # Snakemake would say that nothing is to be done.
-KEPT = [
+KEPT += [
     RESULTS,
     "<results>/timings.md",
     "<results>/study.json",
@@ -230,24 +233,17 @@ KEPT = [
     MEASURED,
     FITTED_LAWS,
     USED_LAWS,
-    DEPOSITS,
-    expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
-    expand([MODEL, EXCERPT], sample=SAMPLES),
+    expand("<results>/deposits/{sample}.h5", sample=[*SAMPLES, *PACKED]),
+    [made.files() for made in SPECIMENS.values()],
+    [files for _, files, _ in COLLECTED.values()],
+    [f"<results>/{table}" for table, *_ in COLLECTED.values()],
     expand("<results>/diagnosis/specimens/{sample}.h5", sample=SAMPLES if COMMON_LAW else FIRST),
-    rules.simulations.input.tests,
 ]
-if REMAPPED:
-    KEPT += [
-        expand("<results>/facets/specimens/{sample}.h5", sample=SAMPLES),
-        expand([FACET_MODEL, FACET_EXCERPT], sample=SAMPLES),
-        rules.facet_simulations.input.tests,
-    ]
 if COMMON_LAW:
     KEPT += [
         COMMON_LAW,
         expand(EXTENDED_LAWS, sample=SAMPLES, temperature=TEMPERATURES, frequency=FREQUENCIES),
         expand("<results>/extended/rigs/{sample}.json", sample=SAMPLES),
-        rules.extended_simulations.input.tests,
     ]
 if FAMILIES:
     KEPT += [
@@ -255,47 +251,3 @@ if FAMILIES:
         expand(rules.reduce_family.output, family=FAMILIES),
         expand(rules.diagnose_family.output, family=FAMILIES),
     ]
-if "time_step_study" in STUDY:
-    KEPT += [
-        SOLVED,
-        expand(rules.trim_part.output, sample=f"s{STEPPING['seed']}"),
-        expand(rules.condense_part.output, sample=f"s{STEPPING['seed']}", head=HEAD),
-        PART_SOLVED,
-        STOPPED,
-    ]
-if "sensitivity" in STUDY:
-    KEPT += [
-        expand(
-            SCALED_LAW,
-            parameter=SENSITIVITY["parameters"],
-            factor=[label(factor) for factor in SENSITIVITY["factors"]],
-            temperature=label(SENSITIVITY["temperature_C"]),
-        ),
-        rules.sensitivity.input.tests,
-    ]
-if "audit" in STUDY:
-    KEPT += [
-        f"<results>/laws/pascal/T{label(AUDIT['temperature_C'])}.json",
-        expand("<results>/models/blocked/s{seed}.{kind}", seed=AUDIT["seed"], kind=["h5", "excerpt.h5"]),
-        rules.readings.input.tests,
-    ]
-if LIKELY:
-    KEPT += [
-        f"<results>/likely/specimens/{LIKELY_SAMPLE}.h5",
-        expand([f"{LIKELY_MODEL}.{kind}" for kind in ("h5", "excerpt.h5")], sample=LIKELY_SAMPLE),
-        rules.likely_simulations.input.tests,
-        LIKELY_SIMULATIONS,
-    ]
-if "packing_study" in STUDY:
-    KEPT += [
-        rules.packing.input.deposits,
-        expand("<results>/specimens/{sample}.h5", sample=PACKED),
-        expand([MODEL, EXCERPT], sample=PACKED),
-        rules.packing.input.tests,
-        rules.packing.input.facets,
-    ]
-    if REMAPPED:
-        KEPT += [
-            expand("<results>/facets/specimens/{sample}.h5", sample=PACKED),
-            expand([FACET_MODEL, FACET_EXCERPT], sample=PACKED),
-        ]

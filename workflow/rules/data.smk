@@ -14,25 +14,25 @@ def records(table):
 
 
 rule reconstruct:
-    # The authors' measurements are not published; what comes out is labelled "reconstructed" from here on.
+    """The authors' measurements are not published; what comes out is labelled "reconstructed" from here on."""
     input:
         table=STUDY["laws"]["published"]["table"] if "published" in STUDY["laws"] else [],
         code=code("reconstruct"),
     output:
         measurements="<results>/measurements.csv",
         law="<results>/laws/reconstruction.json",
+    log:
+        "<results>/logs/reconstruct.log",
+    benchmark:
+        "<results>/benchmarks/reconstruct.tsv"
+    priority: 20  # before anything is poured: the measurements may yet be refused
+    conda:
+        ENVIRONMENT
     params:
         geometry=text(STUDY["geometry"]),
         frequencies=text(STUDY["frequencies_Hz"]),
         amplitude=options(STUDY["test"], "amplitude_m"),
         scatter=options(STUDY["measurements"].get("reconstruct", {})),
-    priority: 20  # before anything is poured: the measurements may yet be refused
-    conda:
-        ENVIRONMENT
-    log:
-        "<results>/logs/reconstruct.log",
-    benchmark:
-        "<results>/benchmarks/reconstruct.tsv"
     message:
         "Reconstruct measurements from the published laws"
     shell:
@@ -40,23 +40,23 @@ rule reconstruct:
 
 
 rule reduce:
-    # Forces and displacements at the head become complex moduli.
+    """Forces and displacements at the head become complex moduli."""
     input:
         measurements=MEASUREMENTS,
         records=records(MEASUREMENTS),
         code=code("reduce"),
     output:
         "<results>/measured.csv",
-    params:
-        geometry=text(STUDY["geometry"]),
-        window=options(STUDY.get("reduction", {})),
-    priority: 20  # before anything is poured: the measurements may yet be refused
-    conda:
-        ENVIRONMENT
     log:
         "<results>/logs/reduce.log",
     benchmark:
         "<results>/benchmarks/reduce.tsv"
+    priority: 20  # before anything is poured: the measurements may yet be refused
+    conda:
+        ENVIRONMENT
+    params:
+        geometry=text(STUDY["geometry"]),
+        window=options(STUDY.get("reduction", {})),
     message:
         "Reduce the measurements to complex moduli, Eqs. (1)-(5)"
     shell:

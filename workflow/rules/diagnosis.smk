@@ -3,23 +3,21 @@
 SETTINGS = dict(STUDY["diagnosis"])
 SETTINGS |= SETTINGS.pop("scatter", {})
 DIAGNOSED = [f"<results>/diagnosis/{name}" for name in ("diagnosis.json", "residuals.csv", "causality.csv")]
-# One law for all temperatures, for the extended simulation; one temperature determines none.
-COMMON_LAW = ["<results>/diagnosis/law.json"] if len(TEMPERATURES) > 1 else []
 
 
 rule reduced_specimen:
-    # The numerical specimen as two small matrices, from which its test follows for any law.
+    """The numerical specimen as two small matrices, from which its test follows for any law."""
     input:
-        model=FACET_MODEL,
+        model=f"{model(FACETS)}.h5",
         code=code("reduced-specimen"),
     output:
         "<results>/diagnosis/specimens/{sample}.h5",
-    conda:
-        ENVIRONMENT
     log:
         "<results>/logs/reduced_specimen/{sample}.log",
     benchmark:
         "<results>/benchmarks/reduced_specimen/{sample}.tsv"
+    conda:
+        ENVIRONMENT
     message:
         "Reduce sample {wildcards.sample} to what a diagnosis needs of it"
     shell:
@@ -27,7 +25,7 @@ rule reduced_specimen:
 
 
 rule diagnose:
-    # Residuals, ladder of causes, verdict; the log holds the ladder as a table.
+    """Residuals, ladder of causes, verdict; the log holds the ladder as a table."""
     input:
         measured="<results>/measured.csv",
         simulations="<results>/simulations.csv",
@@ -37,18 +35,18 @@ rule diagnose:
     output:
         DIAGNOSED,
         COMMON_LAW,
+    log:
+        "<results>/logs/diagnose.log",
+    benchmark:
+        "<results>/benchmarks/diagnose.tsv"
+    conda:
+        ENVIRONMENT
     params:
         geometry=text(STUDY["geometry"]),
         settings=options(SETTINGS),
         campaigns=lambda wildcards, input: f"--simulations {input.simulations}"
         + (f" --facets {input.facets}" if input.facets else ""),
         folder=lambda wildcards, output: os.path.dirname(output[0]),
-    conda:
-        ENVIRONMENT
-    log:
-        "<results>/logs/diagnose.log",
-    benchmark:
-        "<results>/benchmarks/diagnose.tsv"
     message:
         "Diagnose where simulation and measurements differ, and why"
     shell:
@@ -56,7 +54,7 @@ rule diagnose:
 
 
 rule diagnosis_page:
-    # What to make of it, for who has to act on it.
+    """What to make of it, for who has to act on it."""
     input:
         diagnosis=DIAGNOSED[0],
         residuals=DIAGNOSED[1],
@@ -72,15 +70,17 @@ rule diagnosis_page:
             category="0 Diagnosis",
             labels={"result": title("diagnosis")},
         ),
-    params:
-        title=title("diagnosis"),
-        data=lambda wildcards, input: [f"{kind}={input.get(kind)}" for kind in ("diagnosis", "residuals", "causality", "table4", "ladder")],
-    conda:
-        ENVIRONMENT
     log:
         "<results>/logs/page/diagnosis.log",
     benchmark:
         "<results>/benchmarks/page/diagnosis.tsv"
+    conda:
+        ENVIRONMENT
+    params:
+        title=title("diagnosis"),
+        data=lambda wildcards, input: [
+            f"{kind}={input.get(kind)}" for kind in ("diagnosis", "residuals", "causality", "table4", "ladder")
+        ],
     message:
         "Show the diagnosis as a page"
     shell:

@@ -26,16 +26,16 @@ if COMMON_LAW:
                 code=code("export", f"exports.{FORMATS[form][0]}"),
             output:
                 path,
-            params:
-                form=form,
-            conda:
-                ENVIRONMENT
             log:
                 f"<results>/logs/export/{form}.log",
             benchmark:
                 f"<results>/benchmarks/export/{form}.tsv"
             group:
                 "contents"
+            conda:
+                ENVIRONMENT
+            params:
+                form=form,
             message:
                 f"Export the law of the diagnosis for {form}"
             shell:

@@ -2,19 +2,19 @@
 
 
 rule fit:
-    # To the measurements, by least squares on the complex modulus.
+    """To the measurements, by least squares on the complex modulus."""
     input:
         measured="<results>/measured.csv",
         code=code("fit"),
     output:
         "<results>/laws/fitted/T{temperature}.json",
-    priority: 20  # before anything is poured: the measurements may yet be refused
-    conda:
-        ENVIRONMENT
     log:
         "<results>/logs/fit/T{temperature}.log",
     benchmark:
         "<results>/benchmarks/fit/T{temperature}.tsv"
+    priority: 20  # before anything is poured: the measurements may yet be refused
+    conda:
+        ENVIRONMENT
     message:
         "Fit a Burgers law to the measurements at {wildcards.temperature} degC, Eqs. (27)-(29)"
     shell:
@@ -22,23 +22,57 @@ rule fit:
 
 
 rule published_law:
-    # As printed in Table 3, read in the unit that the study states. Other rows of the table do not count.
+    """As printed in Table 3, read in the unit that the study states. Other rows of the table do not count."""
     input:
         row=row_at(STUDY["laws"].get("published", {}).get("table")),
         code=code("published-law"),
     output:
         "<results>/laws/published/T{temperature}.json",
-    params:
-        table=STUDY["laws"].get("published", {}).get("table"),
-        unit=STUDY["laws"].get("published", {}).get("unit"),
-    priority: 20  # before anything is poured: the measurements may yet be refused
-    conda:
-        ENVIRONMENT
     log:
         "<results>/logs/published_law/T{temperature}.log",
     benchmark:
         "<results>/benchmarks/published_law/T{temperature}.tsv"
+    priority: 20  # before anything is poured: the measurements may yet be refused
+    conda:
+        ENVIRONMENT
+    params:
+        table=STUDY["laws"].get("published", {}).get("table"),
+        unit=STUDY["laws"].get("published", {}).get("unit"),
     message:
         "Take the published Burgers law at {wildcards.temperature} degC, Table 3"
     shell:
         "asphalt-nscd published-law {params.table:q} --temperature-c {wildcards.temperature} --unit {params.unit} --output {output} > {log} 2>&1"
+
+
+rule scale_law:
+    """Section 4.3: the law of the tests with one parameter times a factor."""
+    input:
+        law=LAW,
+        code=code("scale-law"),
+    output:
+        "<results>/laws/scaled/{parameter}_{factor}/T{temperature}.json",
+    log:
+        "<results>/logs/scale_law/{parameter}_{factor}/T{temperature}.log",
+    benchmark:
+        "<results>/benchmarks/scale_law/{parameter}_{factor}/T{temperature}.tsv"
+    conda:
+        ENVIRONMENT
+    message:
+        "Law at {wildcards.temperature} degC with {wildcards.parameter} times {wildcards.factor}"
+    shell:
+        "asphalt-nscd scale-law {input.law} --parameter {wildcards.parameter} --factor {wildcards.factor} --output {output} > {log} 2>&1"
+
+
+use rule published_law as pascal_law with:
+    """Table 3 in the unit that the paper prints."""
+    output:
+        "<results>/laws/pascal/T{temperature}.json",
+    log:
+        "<results>/logs/pascal_law/T{temperature}.log",
+    benchmark:
+        "<results>/benchmarks/pascal_law/T{temperature}.tsv"
+    params:
+        table=STUDY["laws"].get("published", {}).get("table"),
+        unit="Pa",
+    message:
+        "Take the published Burgers law at {wildcards.temperature} degC in Pa, as printed"

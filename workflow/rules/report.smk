@@ -21,18 +21,18 @@ for name, (category, data) in FIGURES.items():
                 category=category,
                 labels={"result": title(name)},
             ),
-        params:
-            name=name,
-            data=pairs,
-            stem=lambda wildcards, output: output[0].removesuffix(".pdf"),
-        conda:
-            ENVIRONMENT
         log:
             f"<results>/logs/{name}.log",
         benchmark:
             f"<results>/benchmarks/{name}.tsv"
         group:
             "contents"
+        conda:
+            ENVIRONMENT
+        params:
+            name=name,
+            data=pairs,
+            stem=lambda wildcards, output: output[0].removesuffix(".pdf"),
         message:
             f"Draw {name}"
         shell:
@@ -49,17 +49,17 @@ for name, data in TABLES.items():
             code=code("table", f"reporting.tables.{name}"),
         output:
             f"<results>/{name}.csv",
-        params:
-            name=name,
-            data=pairs,
-        conda:
-            ENVIRONMENT
         log:
             f"<results>/logs/{name}.log",
         benchmark:
             f"<results>/benchmarks/{name}.tsv"
         group:
             "contents"
+        conda:
+            ENVIRONMENT
+        params:
+            name=name,
+            data=pairs,
         message:
             f"Make {name}"
         shell:
@@ -67,7 +67,7 @@ for name, data in TABLES.items():
 
 
 rule pages:
-    # Each table as a page: one job, for a page takes less time than the start of a job.
+    """Each table as a page: one job, for a page takes less time than the start of a job."""
     input:
         tables=[f"<results>/{name}.csv" for name in PAGES],
         code=code("page"),
@@ -82,20 +82,20 @@ rule pages:
             )
             for name, category in PAGES.items()
         ],
-    params:
-        pages=lambda wildcards, output: [
-            part
-            for name, path in zip(PAGES, output, strict=True)
-            for part in ("--title", title(name), "--output", path)
-        ],
-    conda:
-        ENVIRONMENT
     log:
         "<results>/logs/pages.log",
     benchmark:
         "<results>/benchmarks/pages.tsv"
     group:
         "pages"
+    conda:
+        ENVIRONMENT
+    params:
+        pages=lambda wildcards, output: [
+            part
+            for name, path in zip(PAGES, output, strict=True)
+            for part in ("--title", title(name), "--output", path)
+        ],
     message:
         "Show the tables as pages"
     shell:
@@ -103,18 +103,18 @@ rule pages:
 
 
 rule study:
-    # The study in full, defaults included.
-    localrule: True
+    """The study in full, defaults included."""
     output:
         "<results>/study.json",
-    params:
-        study=json.dumps(STUDY),
-    conda:
-        ENVIRONMENT
     log:
         "<results>/logs/study.log",
     benchmark:
         "<results>/benchmarks/study.tsv"
+    localrule: True
+    conda:
+        ENVIRONMENT
+    params:
+        study=json.dumps(STUDY),
     message:
         "Write down the study in full"
     shell:
@@ -129,8 +129,7 @@ def benchmarks(wildcards, input):
 
 
 rule timings:
-    # Where the time goes, from the benchmark files of all that was computed.
-    localrule: True  # a job on a cluster knows its own part of the plan alone
+    """Where the time goes, from the benchmark files of all that was computed."""
     input:
         COMPUTED,
         ["results/forecast/recipe/forecast.csv", "results/forecast/voids.csv"] if FORECAST else [],
@@ -138,15 +137,16 @@ rule timings:
     output:
         table="<results>/timings.csv",
         markdown="<results>/timings.md",
-    params:
-        folder=lambda wildcards, output: f"{os.path.dirname(output.table)}/benchmarks",
-        benchmarks=benchmarks,
-    conda:
-        ENVIRONMENT
     log:
         "<results>/logs/timings.log",
     benchmark:
         "<results>/benchmarks/timings.tsv"
+    localrule: True  # a job on a cluster knows its own part of the plan alone
+    conda:
+        ENVIRONMENT
+    params:
+        folder=lambda wildcards, output: f"{os.path.dirname(output.table)}/benchmarks",
+        benchmarks=benchmarks,
     message:
         "Sum the time by rule"
     shell:
@@ -154,7 +154,7 @@ rule timings:
 
 
 rule provenance:
-    # What made these results: study, commit, versions.
+    """What made these results: study, commit, versions."""
     input:
         COMPUTED,
         study="<results>/study.json",
@@ -166,12 +166,12 @@ rule provenance:
             category="8 About this run",
             labels={"result": title("provenance")},
         ),
-    conda:
-        ENVIRONMENT
     log:
         "<results>/logs/provenance.log",
     benchmark:
         "<results>/benchmarks/provenance.tsv"
+    conda:
+        ENVIRONMENT
     message:
         "Write down commit and versions"
     shell:
@@ -189,13 +189,13 @@ def sources_of_entries(results):
 
 
 rule results:
-    # Everything but the report about it.
+    """Everything but the report about it."""
     input:
         RESULTS,
 
 
 rule report:
-    # One file with everything, that opens with what was measured, simulated, wrong, why, and gained.
+    """One file with everything, that opens with what was measured, simulated, wrong, why, and gained."""
     input:
         figures=[f"<results>/figures/{name}.png" for name in FIGURES],
         pages=[f"<results>/pages/{name}.html" for name in ("diagnosis", *PAGES)],
@@ -203,12 +203,21 @@ rule report:
         data=["<results>/measured.csv", "<results>/simulations.csv", "<results>/samples.csv"],
         diagnosis=DIAGNOSED[0],
         ladder="<results>/ladder.csv",
-        pictures=[f"<results>/figures/{name}.png" for name in ("fig_residual_map", "fig10_extended" if COMMON_LAW else "fig10")],
+        pictures=[
+            f"<results>/figures/{name}.png"
+            for name in ("fig_residual_map", "fig10_extended" if COMMON_LAW else "fig10")
+        ],
         beside=[f"<results>/{name}.csv" for name in ("rivals", "ensemble") if name in TABLES],
         code=code("report"),
         template=page_files("report.html"),
     output:
         "<results>/report.html",
+    log:
+        "<results>/logs/report.log",
+    benchmark:
+        "<results>/benchmarks/report.tsv"
+    conda:
+        ENVIRONMENT
     params:
         study=STUDY["study"],
         data=lambda wildcards, input: [
@@ -225,12 +234,6 @@ rule report:
             f"--source={name}={path}" for name, path in sources_of_entries(os.path.dirname(output[0]))
         ],
         captions=lambda wildcards, input: os.path.dirname(input.captions[0]),
-    conda:
-        ENVIRONMENT
-    log:
-        "<results>/logs/report.log",
-    benchmark:
-        "<results>/benchmarks/report.tsv"
     message:
         "Put figures and tables into one report: {output}"
     shell:

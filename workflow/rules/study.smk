@@ -53,8 +53,10 @@ for _holder, _key in [
     if _key in _holder:
         _holder[_key] = local(_holder[_key])
 
+
 pathvars:
     results=f"results/{STUDY['study']}",
+
 
 REPORT = f"results/{STUDY['study']}/report.html"
 TEMPERATURES = [label(value) for value in STUDY["temperatures_C"]]
@@ -117,11 +119,19 @@ def options(values, *keys):
     return " ".join(f"--{key.lower().replace('_', '-')} {text(values[key])}" for key in keys or values)
 
 
+def log_of(path):
+    """Of the job that makes this file of a campaign beside the study."""
+    results, campaign, *below = Path(path).with_suffix(".log").parts
+    return os.path.join(results, campaign, "logs", *below)
+
+
 def title(name):
     """First line of a caption; numbers padded, because the report sorts by it."""
     caption = Path(shipped(f"workflow/report/{name}.rst"))
     if not caption.exists():
-        sys.exit(f"error: workflow/report/{name}.rst: no caption of {name}; write it, its title in ** on the first line.")
+        sys.exit(
+            f"error: workflow/report/{name}.rst: no caption of {name}; write it, its title in ** on the first line."
+        )
     line = caption.read_text(encoding="utf-8").splitlines()[0]
     return re.sub(r"Fig\. (\d):", r"Fig. 0\1:", line.strip("*").replace("\\", ""))
 

@@ -5,7 +5,7 @@ TESTED = sorted({name for file in THEORY for name in re.findall(r"from asphalt_n
 
 
 rule verify:
-    # The core against theory. Fails where a row has failed, which the log names.
+    """The core against theory; fails where a row has failed, which the log names."""
     input:
         tests=[os.path.relpath(path) for path in THEORY],
         code=local(stamp(".snakemake/code", "theory", source_files(*TESTED)).as_posix()),
@@ -16,6 +16,8 @@ rule verify:
         "results/verification/logs/verification.log",
     benchmark:
         "results/verification/benchmarks/verification.tsv"
+    conda:
+        ENVIRONMENT
     message:
         "Verify the core"
     shell:
@@ -23,24 +25,10 @@ rule verify:
 
 
 rule mutants:
-    # A wrong sign in the sources must turn a test red; hours. What was tried before stands. Only on request:
-    #   snakemake --cores 1 mutants
+    """A wrong sign in the sources must turn a test red: hours, only on request; what was tried before stands."""
     log:
         "results/mutants/logs/mutants.log",
     message:
         "Try the mutants"
     shell:
         "env PYTHONPATH={CLONE}/trials {sys.executable} -m mutants --output results/mutants > {log} 2>&1"
-
-
-rule publish_verification:
-    # What is committed of the verification. Only on request:
-    #   snakemake --cores 1 publish_verification
-    input:
-        files=["results/verification/verification.csv", "results/verification/provenance.json"],
-        summary="results/verification/summary.csv",
-        code=code("publish"),
-    message:
-        "Copy what is committed of the verification, and fill its table in docs"
-    shell:
-        "asphalt-nscd publish {input.files} --root results/verification --output results/published/verification --document docs --block verification={input.summary}"

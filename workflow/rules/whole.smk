@@ -3,20 +3,20 @@
 
 
 rule workflow_report:
-    # Snakemake's own report, from the records of how each file was made. After ours, which looks for damaged files.
-    localrule: True
+    """Snakemake's own report, from the records of how each file was made. After ours, which looks for damaged files."""
     input:
         RESULTS,
         "<results>/report.html",
         study="<results>/study.json",
     output:
         "<results>/workflow.html",
-    params:
-        snakefile=lambda wildcards: os.path.relpath(workflow.main_snakefile),
     log:
         "<results>/logs/workflow_report.log",
     benchmark:
         "<results>/benchmarks/workflow_report.tsv"
+    localrule: True
+    params:
+        snakefile=lambda wildcards: os.path.relpath(workflow.main_snakefile),
     message:
         "Put down how each file was made: {output}"
     shell:
@@ -24,7 +24,7 @@ rule workflow_report:
 
 
 rule ro_crate:
-    # The study as one archive for a repository of data. Only on request: snakemake --cores 1 ro_crate
+    """The study as one archive for a repository of data. Only on request: snakemake --cores 1 ro_crate"""
     input:
         files=["<results>/report.html", RESULTS],
         provenance="<results>/provenance.json",
@@ -32,12 +32,12 @@ rule ro_crate:
         code=code("ro-crate"),
     output:
         f"<results>/{STUDY['study']}.crate.zip",
-    params:
-        root=lambda wildcards, input: os.path.dirname(input.provenance),
     log:
         "<results>/logs/ro_crate.log",
     benchmark:
         "<results>/benchmarks/ro_crate.tsv"
+    params:
+        root=lambda wildcards, input: os.path.dirname(input.provenance),
     message:
         "Put the study into one archive: {output}"
     shell:

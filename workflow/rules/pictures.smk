@@ -1,0 +1,108 @@
+# Pictures of README and docs, and what ships with the package: each only on request.
+
+if STUDY["study"] == "paper":
+
+    rule ship_specimen:
+        """The specimen that `asphalt-nscd diagnose` takes where none is given, put into the package."""
+        input:
+            f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",
+        message:
+            "Put the reduced specimen into the package"
+        shell:
+            "cp {input} src/asphalt_nscd/diagnosis/simulation/specimen.h5"
+
+
+rule simulate_frames:
+    """One test that keeps what all spheres and bonds do in its last cycle."""
+    input:
+        compiled="<results>/compiled/simulate",
+        model=f"{model(FACETS)}.h5",
+        law=LAW,
+        code=code("simulate"),
+    output:
+        "<results>/frames/{sample}/T{temperature}/f{frequency}.h5",
+    log:
+        "<results>/logs/frames/{sample}/T{temperature}/f{frequency}.log",
+    params:
+        test=lambda wildcards: f"--temperature-c {wildcards.temperature} --frequency-hz {wildcards.frequency}",
+        amplitude=STUDY["test"]["amplitude_m"],
+    message:
+        "Test sample {wildcards.sample} and keep 12 instants of a cycle"
+    shell:
+        "asphalt-nscd simulate {input.model} --law {input.law} {params.test} --amplitude-m {params.amplitude} --frames 12 --output {output} > {log} 2>&1"
+
+
+rule specimen_picture:
+    """A specimen and the forces in its bonds, for docs/packings.md; of config/smoke.yaml. Needs VTK."""
+    input:
+        test=f"<results>/frames/{SAMPLES[0]}/T{TEMPERATURES[-1]}/f{FREQUENCIES[-1]}.h5",
+        tool=shipped("tools/picture.py"),
+        code=code("export"),
+    output:
+        "docs/specimen_forces.png",
+    log:
+        "<results>/logs/specimen_picture.log",
+    params:
+        series=lambda wildcards, input: input.test.removesuffix("h5") + "pvd",
+        python=sys.executable,
+    message:
+        "Draw a specimen and the forces in its bonds"
+    shell:
+        "bash -c 'asphalt-nscd export {input.test} --format vtk --output {params.series} && "
+        "{params.python} {input.tool} {params.series} --output {output}' > {log} 2>&1"
+
+
+rule first_page:
+    """The report's first page as a picture for the README. Needs Chromium."""
+    input:
+        "<results>/report.html",
+    output:
+        f"results/published/{STUDY['study']}/first_page.png",
+    params:
+        tests=shipped("trials"),
+        python=sys.executable,
+        folder=f"results/published/{STUDY['study']}",
+    message:
+        "Take a picture of the report's first page"
+    shell:
+        "bash -c 'env PYTHONPATH={params.tests} {params.python} -m browser {input} --picture {output} && "
+        "asphalt-nscd publish {output} --root {params.folder} --output {params.folder}'"
+
+
+rule rule_graph:
+    """Which rule needs which, as a picture for docs/workflow.md."""
+    input:
+        rules=sorted(
+            os.path.relpath(path) for path in [CLONE / "workflow/Snakefile", *(CLONE / "workflow/rules").glob("*.smk")]
+        ),
+        tool=shipped("tools/rule_graph.py"),
+    output:
+        "docs/rule_graph.svg",
+    log:
+        "<results>/logs/rule_graph.log",
+    localrule: True
+    params:
+        snakefile=os.path.relpath(workflow.main_snakefile),
+        study=PAPER,
+        python=sys.executable,
+    message:
+        "Draw which rule needs which: {output}"
+    shell:
+        "snakemake --snakefile {params.snakefile} --configfile {params.study} --nolock --rulegraph 2> {log} | {params.python} {input.tool} {output} >> {log} 2>&1"
+
+
+rule step_picture:
+    """How a step is made and checked, as a picture for docs/stepping.md."""
+    input:
+        tool=shipped("tools/step_picture.py"),
+    output:
+        "docs/stepping.svg",
+    log:
+        "<results>/logs/step_picture.log",
+    localrule: True
+    params:
+        python=sys.executable,
+    message:
+        "Draw how a step is made: {output}"
+    shell:
+        "{params.python} {input.tool} {output} > {log} 2>&1"
