@@ -11,8 +11,8 @@ from naive.prony import ROOT, SPECTRA
 
 from asphalt_nscd.exports.card import Settings
 from asphalt_nscd.exports.export import export_law
+from asphalt_nscd.exports.formats.mepdg import FREQUENCIES, TEMPERATURES_F
 from asphalt_nscd.exports.law import read_law_file
-from asphalt_nscd.exports.mepdg import FREQUENCIES, TEMPERATURES_F
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.laws_io import write_law
 from asphalt_nscd.rheology.parabolic import TwoS2P1D

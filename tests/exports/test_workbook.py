@@ -14,8 +14,8 @@ from naive.prony import SPECTRA, assert_within
 
 from asphalt_nscd.exports.card import UNITS, Settings
 from asphalt_nscd.exports.export import export_law
+from asphalt_nscd.exports.formats.xlsx import write_sheets
 from asphalt_nscd.exports.law import read_law_file
-from asphalt_nscd.exports.workbook import write_sheets
 from asphalt_nscd.files.store import write_json
 
 
@@ -71,7 +71,7 @@ def test_suspect_tests_and_notes_of_a_diagnosis_stand_in_the_workbook(folder, mo
         "notes": ["Look at the clamp."],
     }
     write_json(folder / "diagnosis.json", content)
-    monkeypatch.setattr("asphalt_nscd.exports.workbook.read_diagnosis", lambda paths: content)
+    monkeypatch.setattr("asphalt_nscd.exports.formats.xlsx.read_diagnosis", lambda paths: content)
     export_law(read_law_file(folder / "law.json"), Settings(), "xlsx", folder / "law.xlsx")
     book = openpyxl.load_workbook(folder / "law.xlsx")
     assert [cell.value for cell in book["Suspects"][2]] == ["=1+1", 37, 25, 6.1]

@@ -30,7 +30,7 @@ import numpy as np
 import pandas as pd
 
 import asphalt_nscd as an
-from asphalt_nscd.exports.formats import FORMATS
+from asphalt_nscd.exports.formats import FORMATS, format_of
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range
 from asphalt_nscd.files.store import provenance, write_json, write_table
@@ -271,7 +271,7 @@ def export(rng: Random) -> Call:
         packings()[0],
         specimens()[rng.integers(5)],
     ][rng.integers(4)]
-    endings = {name: usual for name, (_, (usual, *_)) in FORMATS.items()} | {"vtk": ".vtp"}
+    endings = {name: format_of(name).ENDINGS[0] for name in FORMATS} | {"vtk": ".vtp"}
     form = str(rng.choice(list(endings)))
     settings = {
         "error_percent": number(rng, Range(above=0.0), 1.0),

@@ -1,7 +1,5 @@
 # The law of the diagnosis in the files of other programs.
 
-from asphalt_nscd.exports.formats import FORMATS
-
 # Format: its file.
 EXPORTS = {
     "abaqus": "<results>/exports/law.inp",
@@ -23,7 +21,7 @@ if COMMON_LAW:
             input:
                 law=COMMON_LAW,
                 diagnosed=DIAGNOSED,
-                code=code("export", f"exports.{FORMATS[form][0]}"),
+                code=code("export", f"exports.formats.{form}"),
             output:
                 path,
             log:

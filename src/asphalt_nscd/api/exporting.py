@@ -39,8 +39,8 @@ def export(
     output : path
         File to write.
     form : str
-        Of a law abaqus, ansys, comsol, csv, xlsx or mepdg; of spheres and bonds vtk (.vtp, for ParaView; bonds in a
-        file beside) or csv.
+        Of a law a format of docs/laws-out.md, as abaqus, xlsx or mepdg; of spheres and bonds vtk (.vtp, for ParaView;
+        bonds in a file beside) or csv.
     settings : ExportSettings
         Largest errors of the Prony series, Poisson's ratio, units, name of the material.
     temperatures_C, frequencies_Hz : tuple of float, optional

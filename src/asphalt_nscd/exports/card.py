@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from decimal import ROUND_UP, Context, Decimal
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +24,7 @@ from asphalt_nscd.rheology.spectrum_io import student
 POISSON = 0.35  # of the bonds of Quezada & Chazallon (2020)
 LEAST_LONG_TERM = 1e-6  # of the instantaneous modulus: programs want a solid at infinite time
 ROUNDING = 1e-6  # % or deg: an error of arithmetic alone
+FAR_OFF = 0.15  # of ln |E*|, root mean square: a law that is no law of these tests
 WIDTH = 100  # characters of a line of comment
 
 
@@ -120,6 +123,17 @@ class Card:
         """Poisson's ratio and where it comes from, in words."""
         stated = "as stated by --poisson" if self.settings.poisson is not None else "assumed, not measured"
         return f"Poisson's ratio {self.poisson:g} ({stated})"
+
+    def told(self) -> str:
+        """One line on what was written and how well it follows the law."""
+        shift = "" if self.law.shift else ", no shift"
+        off = self.law.rms_log_residual or 0.0
+        far = (
+            f" The law itself misses its tests by {100.0 * off:.0f} %: do not rely on it."
+            if off > FAR_OFF
+            else ""
+        )
+        return f"{self.achieved()} over {self.law.band}{shift}; {self.poisson_said()}.{far}"
 
     def statements(self) -> list[str]:
         """What a reader must know, one sentence an item."""
@@ -257,3 +271,13 @@ def _short(value: float) -> str:
     if value < ROUNDING:
         return f"less than {ROUNDING:g}"
     return f"{float(Context(prec=2, rounding=ROUND_UP).create_decimal(Decimal(value))):.2g}"
+
+
+def write_card(
+    law: ExportedLaw, settings: Settings, path: Path, text: Callable[[Card], str], solid: bool = False
+) -> str:
+    """Write the card of a law as text; a line on it. `solid`: the program wants a solid at infinite time."""
+    card = make_card(law, settings)
+    card = card.solid() if solid else card
+    path.write_text(text(card), encoding="utf-8")
+    return card.told()

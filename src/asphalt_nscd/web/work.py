@@ -221,7 +221,7 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     from asphalt_nscd.api.tables import campaign_in
     from asphalt_nscd.diagnosis.record.stiffness_only import fit_stiffness, has_no_phase
     from asphalt_nscd.diagnosis.settings import Known
-    from asphalt_nscd.exports.workbook import corrected_workbook
+    from asphalt_nscd.exports.formats.xlsx import corrected_workbook
     from asphalt_nscd.reporting.pages import stiffness_page
     from asphalt_nscd.reporting.pages.handout import write_handout
     from asphalt_nscd.reporting.pages.laboratory import write_page

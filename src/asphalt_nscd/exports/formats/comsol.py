@@ -6,8 +6,18 @@ begin with %, holds what is entered by hand: the elastic parent material and the
 
 from __future__ import annotations
 
-from asphalt_nscd.exports.card import Card, number
+from pathlib import Path
+
+from asphalt_nscd.exports.card import Card, Settings, number, write_card
+from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.rheology.shift import ZERO_CELSIUS
+
+ENDINGS = (".txt",)
+
+
+def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+    """Write the law as a table with a readme; a line on it."""
+    return write_card(law, settings, path, text, solid=True)
 
 
 def text(card: Card) -> str:

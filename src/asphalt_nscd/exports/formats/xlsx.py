@@ -18,10 +18,12 @@ from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
-from asphalt_nscd.exports.card import Card
+from asphalt_nscd.exports.card import Card, Settings, make_card
+from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import atomic_path
 
+ENDINGS = (".xlsx",)
 IN_A_DECADE = 8  # frequencies of the master curve
 STEP = 5.0  # K, of the shift factors
 WIDEST = 90  # characters of a column
@@ -49,8 +51,9 @@ HEADINGS = {
 }
 
 
-def write(card: Card, path: Path) -> None:
-    """Write the workbook of a card, with what stands beside its law in the folder of a diagnosis."""
+def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+    """Write the workbook of a law, with what stands beside it in the folder of a diagnosis; a line on it."""
+    card = make_card(law, settings)
     book = Workbook()
     # openpyxl begins with an empty sheet of its own.
     book.remove(book.worksheets[0])
@@ -68,6 +71,7 @@ def write(card: Card, path: Path) -> None:
         if is_file(folder / "diagnosis.json"):
             _diagnosis(book, read_diagnosis([folder / "diagnosis.json"]))
     _save(book, path)
+    return card.told()
 
 
 def write_sheets(path: Path, sheets: Mapping[str, pd.DataFrame]) -> None:

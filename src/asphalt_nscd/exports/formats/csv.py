@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pandas as pd
 
-from asphalt_nscd.exports.card import Card
+from asphalt_nscd.exports.card import Card, Settings, write_card
+from asphalt_nscd.exports.law import ExportedLaw
+
+ENDINGS = (".csv",)
+
+
+def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+    """Write the law as a table of branches; a line on it."""
+    return write_card(law, settings, path, text)
 
 
 def frame(card: Card) -> pd.DataFrame:

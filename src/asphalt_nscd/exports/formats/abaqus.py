@@ -8,11 +8,21 @@ log10 A = -C1 (theta - theta_0) / (C2 + theta - theta_0), and the reduced time i
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
-from asphalt_nscd.exports.card import Card, number
+from asphalt_nscd.exports.card import Card, Settings, number, write_card
+from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
 
 LONGEST_NAME = 80  # characters of a label
+
+
+ENDINGS = (".inp",)
+
+
+def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+    """Write the law as an Abaqus input file; a line on it."""
+    return write_card(law, settings, path, text, solid=True)
 
 
 def text(card: Card) -> str:

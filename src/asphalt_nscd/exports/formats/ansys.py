@@ -7,12 +7,23 @@ time there, so that it is 1 / a_T and the constants keep their sign.
 
 from __future__ import annotations
 
-from asphalt_nscd.exports.card import Card, number
+from pathlib import Path
+
+from asphalt_nscd.exports.card import Card, Settings, number, write_card
+from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
 
 MOST_TERMS = 100
 ON_A_LINE = 3  # terms of a TBDATA
 MATERIAL = "ASPHALT_MAT"
+
+
+ENDINGS = (".inp", ".mac", ".dat", ".txt")
+
+
+def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+    """Write the law as Ansys commands; a line on it."""
+    return write_card(law, settings, path, text, solid=True)
 
 
 def text(card: Card) -> str:

@@ -8,17 +8,19 @@ from __future__ import annotations
 
 import textwrap
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
 from asphalt_nscd import __version__
-from asphalt_nscd.exports.card import WIDTH
+from asphalt_nscd.exports.card import WIDTH, Settings
 from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.units import PSI, celsius_of_fahrenheit
 
+ENDINGS = (".csv",)
 TEMPERATURES_F = (14.0, 40.0, 70.0, 100.0, 130.0)
 FREQUENCIES = (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)  # Hz
 REFERENCE_F = 70.0  # of the shift in the sigmoid, by NCHRP 1-37A
@@ -44,6 +46,13 @@ class Table:
     error_percent: float
     log_shift: Vector
     spread: Vector | None
+
+
+def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+    """Write the table of |E*| in psi, whatever the settings; a line on it."""
+    table = make_table(law)
+    path.write_text(text(table), encoding="utf-8")
+    return said(table)
 
 
 def sigmoid(parameters: Vector, log_time: Vector) -> Vector:
