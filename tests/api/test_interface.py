@@ -6,12 +6,14 @@ import inspect
 import re
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 from documents.test_examples import MODULES
 
 import asphalt_nscd as an
+from asphalt_nscd.nscd.contacts import friction
 
 STUB = Path(an.__file__).with_suffix(".pyi")
 
@@ -67,6 +69,24 @@ def test_arguments_of_a_public_function_are_described_one_by_one(function):
     assert "Parameters\n----------\n" in said and "Returns\n-------\n" in said
     heads = re.findall(r"^([\w, ]+) : ", said.split("Parameters\n")[1].split("Returns\n")[0], re.M)
     assert [name for head in heads for name in head.split(", ")] == names
+
+
+@pytest.mark.parametrize(
+    ("function", "step"),
+    [
+        (an.pour, "deposit"),
+        (an.specimen, "trim"),
+        (an.forecast, "forecast"),
+        (an.solve_contacts, "fclib"),
+        (friction.solve_contacts, "fclib"),
+    ],
+)
+def test_a_function_has_the_defaults_of_the_command_line(function, step):
+    params = import_module(f"asphalt_nscd.cli.{step}").command.params
+    theirs = {option.name: option.default for option in params if option.name != "threads"}
+    ours = {name: one.default for name, one in inspect.signature(function).parameters.items()}
+    shared = [name for name in ours.keys() & theirs.keys() if isinstance(theirs[name], int | float)]
+    assert shared and {name: ours[name] for name in shared} == {name: theirs[name] for name in shared}
 
 
 def test_an_unknown_name_is_an_attribute_error():
