@@ -177,13 +177,9 @@ def test_an_odd_modulus_and_phase_that_one_temperature_explains_say_which(export
     (said,) = levels.of_temperatures([found])
     side = "warmer" if kelvin > 0.0 else "colder"
     assert said.startswith(f"at 20 degC specimen Mix-B seems {abs(found['kelvin']):.2g} K {side} than stated")
-    gain_alone = replace(exports, modulus=exports.modulus * np.where(hit, abs(change), 1.0))
-    opposed = replace(exports, modulus=exports.modulus * change.conj())
-    for other in (gain_alone, opposed):
-        assert not levels.odd_temperatures(other, levels.odd(other), levels.odd_phases(other))
 
 
-@pytest.mark.parametrize("share,told", [(0.4, False), (0.6, True), (1.9, True), (2.1, False)])
+@pytest.mark.parametrize("share,told", [(-1.0, False), (0.4, False), (0.6, True), (1.9, True), (2.1, False)])
 def test_temperatures_that_differ_more_than_twofold_are_not_one(monkeypatch, share, told):
     monkeypatch.setattr(levels, "_per_kelvin", lambda *_: (-0.1, 2.0))
     place = {"specimen": "A", "temperature_C": 20.0}

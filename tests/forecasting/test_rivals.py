@@ -57,7 +57,5 @@ def test_witczak_at_a_point_worked_by_hand(recipe):
     assert witczak(recipe)[2] == pytest.approx(10**log * PSI, rel=1e-6)
 
 
-def test_regressions_lose_stiffness_with_air(recipe):
-    airy = replace(recipe, voids=0.09)
-    for rival in (hirsch, witczak, mori_tanaka):
-        assert (abs(rival(airy)) < abs(rival(recipe))).all()
+def test_a_mean_field_loses_stiffness_with_air(recipe):
+    assert (abs(mori_tanaka(replace(recipe, voids=0.09))) < abs(mori_tanaka(recipe))).all()

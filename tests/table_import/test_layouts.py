@@ -165,11 +165,7 @@ FILES = {
         [[*row, None, "Air voids", 5.1] if n in (1, 3) else row
          for n, row in enumerate(long([*KEYS, "E* (MPa)", "phi (°)"]))], TESTS),
     "E1 and E2": (long([*KEYS, "E1 (MPa)", "E2 (MPa)"], parts), TESTS),
-    "E' and E''": (long([*KEYS, "E′ (MPa)", "E″ (MPa)"], parts), TESTS),
     "tan delta": (long([*KEYS, "|E*| (MPa)", "tan δ"], lambda e, p: (e, math.tan(math.radians(p)))), TESTS),
-    "storage modulus and tangent": (
-        long([*KEYS, "Storage modulus (MPa)", "tan(phi)"],
-             lambda e, p: (parts(e, p)[0], math.tan(math.radians(p)))), TESTS),
 }  # fmt: skip
 
 
