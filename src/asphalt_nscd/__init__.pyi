@@ -18,10 +18,10 @@ from asphalt_nscd.api.specimens import Specimen as Specimen
 from asphalt_nscd.api.specimens import pour as pour
 from asphalt_nscd.api.specimens import read_packing as read_packing
 from asphalt_nscd.api.specimens import specimen as specimen
+from asphalt_nscd.bending.further_settings import FatigueLaw as FatigueLaw
+from asphalt_nscd.bending.further_settings import Hold as Hold
 from asphalt_nscd.bending.rig import Rig as Rig
 from asphalt_nscd.bending.settings import Bonds as Bonds
-from asphalt_nscd.bending.settings import FatigueLaw as FatigueLaw
-from asphalt_nscd.bending.settings import Hold as Hold
 from asphalt_nscd.bending.settings import Load as Load
 from asphalt_nscd.bending.settings import Numerics as Numerics
 from asphalt_nscd.diagnosis.settings import Draws as Draws

@@ -11,7 +11,8 @@ from theory.specimens import QUICK_LAW, jittered_beam
 
 import asphalt_nscd as an
 from asphalt_nscd.bending.fall import fell, released
-from asphalt_nscd.bending.settings import Bonds, Fall
+from asphalt_nscd.bending.further_settings import Fall
+from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.cli import main
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.fourpoint import Beam

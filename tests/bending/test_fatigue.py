@@ -16,7 +16,8 @@ from asphalt_nscd.bending.fatigue import (
     largest_strain_at,
     profile_of,
 )
-from asphalt_nscd.bending.settings import Bonds, FatigueLaw
+from asphalt_nscd.bending.further_settings import FatigueLaw
+from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry

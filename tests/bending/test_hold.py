@@ -12,9 +12,10 @@ import asphalt_nscd as an
 from asphalt_nscd.bending.bending_test import bond_law, run_test
 from asphalt_nscd.bending.case import LoadCase
 from asphalt_nscd.bending.condensing import condensed
+from asphalt_nscd.bending.further_settings import Hold
 from asphalt_nscd.bending.hold import hold, told
 from asphalt_nscd.bending.model import Model, model_of
-from asphalt_nscd.bending.settings import Bonds, Hold, Numerics
+from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.cli import hold as hold_command
 from asphalt_nscd.cli import simulate as simulate_command
 from asphalt_nscd.files.errors import InputError

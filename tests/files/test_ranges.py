@@ -7,7 +7,8 @@ import re
 import numpy as np
 import pytest
 
-from asphalt_nscd.bending.settings import Bonds, FatigueLaw, Hold, Load, Numerics
+from asphalt_nscd.bending.further_settings import FatigueLaw, Hold
+from asphalt_nscd.bending.settings import Bonds, Load, Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.specimen.settings import Cutting, Pouring, Surfaces, Vibration
 

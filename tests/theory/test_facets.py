@@ -10,9 +10,10 @@ from scipy.optimize import brentq
 from asphalt_nscd.bending.bending_test import bond_law, run_test
 from asphalt_nscd.bending.case import LoadCase
 from asphalt_nscd.bending.condensing import condensed
+from asphalt_nscd.bending.further_settings import Hold
 from asphalt_nscd.bending.hold import hold
 from asphalt_nscd.bending.model import Model, model_of
-from asphalt_nscd.bending.settings import Bonds, Hold, Numerics
+from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.signals import harmonic_response

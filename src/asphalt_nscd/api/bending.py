@@ -18,9 +18,10 @@ from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told
 from asphalt_nscd.bending.case import RunOptions, load_case
 from asphalt_nscd.bending.condensing import condensed
+from asphalt_nscd.bending.further_settings import Hold
 from asphalt_nscd.bending.hold import hold as of_hold
 from asphalt_nscd.bending.model import Model, model_of
-from asphalt_nscd.bending.settings import Bonds, Hold, Load, Numerics
+from asphalt_nscd.bending.settings import Bonds, Load, Numerics
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.files.words import counted
 

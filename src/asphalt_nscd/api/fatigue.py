@@ -7,7 +7,8 @@ from pathlib import Path
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending import fatigue as test
-from asphalt_nscd.bending.settings import Bonds, FatigueLaw
+from asphalt_nscd.bending.further_settings import FatigueLaw
+from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.nscd.bonds.fatigue import FatigueHistory
 
 

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from asphalt_nscd.bending.settings import Bonds, Fall
+from asphalt_nscd.bending.further_settings import Fall
+from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.world import Surroundings, World, WorldBonds, WorldEnergies

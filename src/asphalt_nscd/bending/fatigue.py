@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.bending.settings import STRAINS, Bonds, FatigueLaw
+from asphalt_nscd.bending.further_settings import STRAINS, FatigueLaw
+from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.fatigue import FatigueHistory, Jumps, remaining_stiffness, strain, tire

@@ -8,8 +8,8 @@ import pandas as pd
 from asphalt_nscd.bending import runs
 from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.bending.case import RunOptions
+from asphalt_nscd.bending.further_settings import Hold
 from asphalt_nscd.bending.model import Model
-from asphalt_nscd.bending.settings import Hold
 from asphalt_nscd.bending.taring import soft_clamp, tared
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.bonds.head import HeadDevices

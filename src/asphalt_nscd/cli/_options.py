@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import MISSING, dataclass, is_dataclass
+from dataclasses import MISSING, is_dataclass
 from functools import partial, wraps
 from inspect import Parameter, signature
 from pathlib import Path
-from typing import Any, get_args, get_origin, get_type_hints
+from typing import Any, get_args, get_origin
 
 import click
 
-from asphalt_nscd.files.options import Option, option, option_of, options_of
+from asphalt_nscd.files.options import Option, hints_of, option, option_of, options_of
 from asphalt_nscd.files.ranges import Range
 from asphalt_nscd.measurements.kinds import TEST_TYPES
 
@@ -30,7 +30,7 @@ def step(function: Callable[..., None] | None = None, /, **settings: Any) -> Any
     """
     if function is None:
         return partial(step, **settings)
-    hints = get_type_hints(function)
+    hints = hints_of(function)
     params: list[click.Parameter] = []
     said: dict[str, Option] = {}
     for name, parameter in signature(function).parameters.items():
@@ -60,7 +60,7 @@ def only(*fields: str) -> Any:
 
 def _options_in(kind: Any, names: Any = Parameter.empty) -> Iterator[Option]:
     """Options of a dataclass and of those in it, in the order of the fields."""
-    for name, hint in get_type_hints(kind).items():
+    for name, hint in hints_of(kind).items():
         if is_dataclass(hint):
             yield from _options_in(hint)
         elif name in options_of(kind) and (names is Parameter.empty or name in names):
@@ -74,7 +74,7 @@ def _made(kind: Any, values: Mapping[str, Any]) -> Any:
         for name, said in options_of(kind).items()
         if _name(said) in values
     }
-    inner = {name: _made(hint, values) for name, hint in get_type_hints(kind).items() if is_dataclass(hint)}
+    inner = {name: _made(hint, values) for name, hint in hints_of(kind).items() if is_dataclass(hint)}
     return kind(**given, **inner)
 
 
@@ -207,14 +207,5 @@ OUTPUT = option("File to write.")
 OUTPUTS = option("File to write, one for each.", key="output")
 GEOMETRY = option("Trapezoidal specimen.", type=Geometry())
 MEASURED_IN = option("Test that gave the moduli; else what the files say.", None, choices=list(TEST_TYPES))
-
-
-@dataclass(frozen=True)
-class Table:
-    """How a table of measurements is read."""
-
-    sheet: str | None = option("The only sheet of an XLSX file to read; else all that hold tests.", None)
-    columns: tuple[tuple[str, str], ...] = option(
-        "What a column holds, if its name does not say.", (), key="column", type=Choice()
-    )
-    measured_in: str | None = MEASURED_IN
+SHEET = option("The only sheet of an XLSX file to read; else all that hold tests.", None)
+COLUMNS = option("What a column holds, if its name does not say.", (), key="column", type=Choice())

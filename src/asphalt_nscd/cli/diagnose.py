@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from asphalt_nscd.cli import _data
-from asphalt_nscd.cli._options import Geometry, Table, step
+from asphalt_nscd.cli._options import COLUMNS, MEASURED_IN, SHEET, Geometry, step
 from asphalt_nscd.cli._progress import bars
 from asphalt_nscd.diagnosis.settings import Draws, Known, Scatter, Simulated
 from asphalt_nscd.files.options import option
@@ -24,28 +24,6 @@ def _of_several(context: click.Context, _: click.Parameter, wanted: bool) -> Non
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Material:
-    """What is known beside the tests."""
-
-    geometry: Any = option("Specimens; of ready moduli only the form factor is used.", PAPER, type=Geometry())
-    known: Known
-    scatter: Scatter
-
-
-@dataclass(frozen=True, kw_only=True)
-class Written:
-    """What is made of a diagnosis, and where."""
-
-    output: Path = option("Folder for diagnosis.json and residuals.csv.")
-    verify_limits: bool = option(
-        "Put each cause into these tests at 1, 2 and 3 times its limit; minutes.", False
-    )
-    jobs: int | None = option("Processes of --verify-limits; else one for each core.", None, low=1)
-    page: bool = option("Whether to write diagnosis.html, report.pdf and corrected.xlsx too.", True)
-    details: bool = option("Print the reasons too; diagnosis.html holds them anyway.", False)
-
-
 @click.option(
     "--same-machine",
     is_flag=True,
@@ -58,10 +36,22 @@ class Written:
 def command(
     measurements: tuple[Path, ...],
     *,
-    table: Table,
-    material: Material,
+    output: Path = option("Folder for diagnosis.json and residuals.csv."),
+    sheet: str | None = SHEET,
+    columns: tuple[tuple[str, str], ...] = COLUMNS,
+    measured_in: str | None = MEASURED_IN,
+    geometry: Any = option(
+        "Specimens; of ready moduli only the form factor is used.", PAPER, type=Geometry()
+    ),
+    known: Known,
+    scatter: Scatter,
     simulated: Simulated,
-    written: Written,
+    verify_limits: bool = option(
+        "Put each cause into these tests at 1, 2 and 3 times its limit; minutes.", False
+    ),
+    jobs: int | None = option("Processes of --verify-limits; else one for each core.", None, low=1),
+    page: bool = option("Whether to write diagnosis.html, report.pdf and corrected.xlsx too.", True),
+    details: bool = option("Print the reasons too; diagnosis.html holds them anyway.", False),
     draws: Draws,
 ) -> None:
     """Say which tests can be trusted, what is wrong with the others, which law they follow and what to test next.
@@ -69,7 +59,7 @@ def command(
     MEASUREMENTS: files or a folder of them. Read are exports of testing machines (AMPT, UTM) and tables (CSV,
     TSV, XLSX) with a row for each test or a column for each temperature or frequency.
     """
-    percent, degrees = material.scatter.modulus_scatter_percent, material.scatter.phase_scatter_deg
+    percent, degrees = scatter.modulus_scatter_percent, scatter.phase_scatter_deg
     if (percent is None) != (degrees is None):
         raise click.UsageError("give --modulus-scatter-percent and --phase-scatter-deg together.")
     if simulated.facets is not None and simulated.campaign is None:
@@ -80,10 +70,9 @@ def command(
     from asphalt_nscd.api.tables import campaign_in
     from asphalt_nscd.diagnosis.record.stiffness_only import fit_stiffness, has_no_phase
 
-    output, known = written.output, material.known
     if percent is not None and degrees is not None:
         known = replace(known, scatter=(percent, degrees))
-    campaign = campaign_in(measurements, table.sheet, dict(table.columns), table.measured_in)
+    campaign = campaign_in(measurements, sheet, dict(columns), measured_in)
     # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
     title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
     if has_no_phase(campaign):
@@ -93,33 +82,31 @@ def command(
             )
         curve = fit_stiffness(campaign)
         names = curve.write(output)
-        if written.page:
-            page = _data.part("reporting.pages", "stiffness_page")
-            names.append(page.write_page(output, title, str(curve)).name)
+        if page:
+            shown = _data.part("reporting.pages", "stiffness_page")
+            names.append(shown.write_page(output, title, str(curve)).name)
         click.echo(f"{curve}\n\nWritten to {output}: {', '.join(names)}.")
         return
     with bars("step", on_terminal=True) as progress:
         diagnosis = diagnose(
             campaign,
-            geometry=material.geometry,
+            geometry=geometry,
             known=known,
             simulated=simulated,
             draws=draws,
             progress=progress,
         )
-        if written.verify_limits:
-            diagnosis = diagnosis.verify_limits(written.jobs, progress)
+        if verify_limits:
+            diagnosis = diagnosis.verify_limits(jobs, progress)
     names = diagnosis.outcome.write(output)
-    if written.page:
+    if page:
         names.append(_data.part("exports", "workbook").corrected_workbook(output).name)
         # An extra: the page draws its plots without it.
         if find_spec("matplotlib"):
             names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)
         names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
-    click.echo(
-        f"{diagnosis.details if written.details else diagnosis}\n\nWritten to {output}: {', '.join(names)}."
-    )
-    if written.page:
+    click.echo(f"{diagnosis.details if details else diagnosis}\n\nWritten to {output}: {', '.join(names)}.")
+    if page:
         click.echo(f"For the reasons and figures, open {output / names[-1]} in a browser.")
         if not find_spec("matplotlib"):
             click.echo("For report.pdf, pages to hand on: pip install 'asphalt-nscd[figures]'.")

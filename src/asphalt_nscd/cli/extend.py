@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -25,15 +24,6 @@ class Test(click.ParamType):
             self.fail(f"{value!r} is not of the form T,f,file.", param, context)
 
 
-@dataclass(frozen=True)
-class Tests:
-    """The simulated tests of a sample."""
-
-    number: int = option("Of the sample, from 0.", low=0)
-    amplitude_m: float = option("Of the simulated tests.", above=0.0)
-    tests: tuple[Any, ...] = option("A test and its bond law to write.", key="test", type=Test())
-
-
 @step
 def command(
     diagnosis: Path,
@@ -41,7 +31,9 @@ def command(
     law: Path = option("Continuous law of the diagnosis."),
     measured: Path = option("Measurements that were diagnosed."),
     geometry: Any = GEOMETRY,
-    sample: Tests,
+    number: int = option("Of the sample, from 0.", low=0),
+    amplitude_m: float = option("Of the simulated tests.", above=0.0),
+    tests: tuple[Any, ...] = option("A test and its bond law to write.", key="test", type=Test()),
     rig_output: Path = option("Rig to write."),
 ) -> None:
     """Extend the simulation of one sample by what a diagnosis named: bond laws of its tests, and a rig."""
@@ -52,6 +44,6 @@ def command(
         law,
         measured,
         geometry,
-        Sample(sample.number, sample.amplitude_m, sample.tests),
+        Sample(number, amplitude_m, tests),
         rig_output,
     )

@@ -1,25 +1,12 @@
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
-from asphalt_nscd.bending.settings import STRAINS, FatigueLaw
+from asphalt_nscd.bending.further_settings import STRAINS, FatigueLaw
 from asphalt_nscd.cli._options import OUTPUT, step
 from asphalt_nscd.files.options import option
-
-
-@dataclass(frozen=True)
-class Course:
-    """How the course of a test is computed."""
-
-    every_cycle: Path | None = option(
-        "Law of the bonds, JSON: step through every cycle with it, instead of jumps. For a few dozen cycles.",
-        None,
-    )
-    finer: float = option("How many times shorter jumps are than usual.", 1.0, low=0.1, high=1e4)
-    frequency_Hz: float = option("Frequency, with --every-cycle.", 25.0, above=0.0)
 
 
 @step
@@ -27,8 +14,13 @@ def command(
     specimen: Path,
     *,
     strain: float = option("Largest amplitude of strain, as 100e-6.", range=STRAINS),
-    law: FatigueLaw,
-    how: Course,
+    fatigue_law: FatigueLaw,
+    every_cycle: Path | None = option(
+        "Law of the bonds, JSON: step through every cycle with it, instead of jumps. For a few dozen cycles.",
+        None,
+    ),
+    finer: float = option("How many times shorter jumps are than usual.", 1.0, low=0.1, high=1e4),
+    frequency_Hz: float = option("Frequency, with --every-cycle.", 25.0, above=0.0),
     profile: Path | None = option("File for the damage over the height.", None),
     output: Path = OUTPUT,
 ) -> None:
@@ -41,11 +33,11 @@ def command(
     from asphalt_nscd.specimen.cutting import read_specimen
 
     given = read_specimen(specimen)
-    if how.every_cycle is None:
-        course = fatigue(given, strain, law, jumps=Jumps().finer(how.finer))
+    if every_cycle is None:
+        course = fatigue(given, strain, fatigue_law, jumps=Jumps().finer(finer))
     else:
         course = cycle_by_cycle(
-            given, strain, law, bond_law(read_bond_law(how.every_cycle)), how.frequency_Hz
+            given, strain, fatigue_law, bond_law(read_bond_law(every_cycle)), frequency_Hz
         )
     write_table(output, table_of(course))
     if profile is not None:

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.cli._options import CYLINDER, TRAPEZOID, Geometry, Table, step
+from asphalt_nscd.cli._options import COLUMNS, CYLINDER, MEASURED_IN, SHEET, TRAPEZOID, Geometry, step
 from asphalt_nscd.files.options import option
 from asphalt_nscd.table_import.quantities import MEASURED, SIEVES, spellings
 
@@ -29,13 +29,15 @@ def command(
     measurements: tuple[Path, ...] = option(
         "Table (CSV, TSV, XLSX), machine export, or a folder of them; repeatable."
     ),
-    table: Table,
+    sheet: str | None = SHEET,
+    columns: tuple[tuple[str, str], ...] = COLUMNS,
     geometry: Any = option(
         "Specimens, b_mm equal to B_mm for prisms. Needed for F0 and z0. With moduli the default is the paper's, with "
         "those of a direct test a cylinder of d_mm=100,h_mm=150.",
         None,
         type=Geometry(TRAPEZOID, CYLINDER),
     ),
+    measured_in: str | None = MEASURED_IN,
     grading: Path | None = option("Sieve table for the spheres: sieve (mm), passing (%).", None),
     small: bool = option("One sample of some hundred spheres, to try a study in minutes.", False),
 ) -> None:
@@ -43,7 +45,7 @@ def command(
     from asphalt_nscd.table_import.write import StudyOptions, new_study
 
     geometry = Path(geometry) if isinstance(geometry, str) else geometry
-    options = StudyOptions(geometry, grading, table.measured_in, small, table.sheet, dict(table.columns))
+    options = StudyOptions(geometry, grading, measured_in, small, sheet, dict(columns))
     config, notes = new_study(name, measurements, options)
     for note in notes:
         click.echo(note)

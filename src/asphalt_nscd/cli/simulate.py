@@ -1,6 +1,6 @@
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import click
@@ -13,45 +13,31 @@ from asphalt_nscd.files.options import option
 from asphalt_nscd.measurements.kinds import usual_steps_per_cycle
 
 
-@dataclass(frozen=True, kw_only=True)
-class Tests:
-    """What is tested at one temperature."""
-
-    excerpt: Path | None = option(
-        "Excerpt of the model, made beside it: the model is read only where a test needs more, as for a break.",
-        None,
-    )
-    laws: tuple[Path, ...] = option("Law of the bonds, JSON; one for all tests or one for each.", key="law")
-    law_source: str = option("Source of the law, stored with the result.", "")
-    temperature_C: float = option("Temperature of the law, degrees Celsius.", above=-273.15)
-    frequencies: tuple[float, ...] = option(
-        "Frequency of the head, Hz; repeatable, each with an --output of its own.",
-        key="frequency_Hz",
-        above=0.0,
-    )
-
-
-@dataclass(frozen=True)
-class Run:
-    """What a run knows, tells and keeps."""
-
-    rig: Path | None = option("Devices at the head and errors of the measuring channel, JSON.", None)
-    energy: bool = option("Keep the energy balance of a reduced run; condensed runs always keep it.", False)
-
-
 @step
 def command(
     model: Path,
     *,
-    tests: Tests,
+    excerpt: Path | None = option(
+        "Excerpt of the model, made beside it: the model is read only where a test needs more, as for a break.",
+        None,
+    ),
+    laws: tuple[Path, ...] = option("Law of the bonds, JSON; one for all tests or one for each.", key="law"),
+    law_source: str = option("Source of the law, stored with the result.", ""),
+    temperature_C: float = option("Temperature of the law, degrees Celsius.", above=-273.15),
+    frequencies: tuple[float, ...] = option(
+        "Frequency of the head, Hz; repeatable, each with an --output of its own.",
+        key="frequency_Hz",
+        above=0.0,
+    ),
     load: Load,
     fitted: Fitted,
     numerics: Numerics,
-    run: Run,
+    rig: Path | None = option("Devices at the head and errors of the measuring channel, JSON.", None),
+    energy: bool = option("Keep the energy balance of a reduced run; condensed runs always keep it.", False),
     outputs: tuple[Path, ...] = OUTPUTS,
 ) -> None:
     """Simulate complex modulus tests at one temperature and write a file for each frequency."""
-    laws, count = tests.laws, len(tests.frequencies)
+    count = len(frequencies)
     if len(outputs) != count or len(laws) not in (1, count):
         raise click.UsageError(
             f"{count} x --frequency-hz, {len(laws)} x --law and {len(outputs)} x --output; give an --output "
@@ -61,23 +47,23 @@ def command(
     from asphalt_nscd.bending.case import RunOptions, load_case
 
     # Read once for all frequencies: 400 jobs of a study became 80.
-    specimen, steps = read_subject(model, tests.excerpt), fitted.steps_per_cycle
+    specimen, steps = read_subject(model, excerpt), fitted.steps_per_cycle
     source = click.get_current_context().get_parameter_source
     stepping = any(source(name) is not ParameterSource.DEFAULT for name in ("time_step_s", "scheme"))
     if not steps and not stepping and numerics.method in ("reduced", "condensed"):
         steps = usual_steps_per_cycle(specimen.geometry.test)
-    for law, frequency, output in zip(laws * (count // len(laws)), tests.frequencies, outputs, strict=True):
+    for law, frequency, output in zip(laws * (count // len(laws)), frequencies, outputs, strict=True):
         if steps:
             numerics = replace(numerics, time_step=1.0 / (frequency * steps), scheme="fitted")
-        files = TestFiles(model, law, output, run.rig, tests.law_source)
+        files = TestFiles(model, law, output, rig, law_source)
         with _progress.bars("steps") as report:
             options = RunOptions(
                 lambda done, total: report(f"testing at {frequency:g} Hz", done, total),  # noqa: B023
-                energy=run.energy,
+                energy=energy,
                 frames=load.frames,
             )
             case = load_case(load, frequency, specimen.geometry)
-            columns = simulate(files, tests.temperature_C, case, numerics, options, specimen)
+            columns = simulate(files, temperature_C, case, numerics, options, specimen)
         click.echo(told(columns))
         if columns["broken_bonds"]:
             click.echo(f"warning: {damage(columns)}", err=True)

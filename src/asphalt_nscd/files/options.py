@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import MISSING, dataclass, field, fields, replace
+from dataclasses import MISSING, field, fields
 from functools import cache
 from inspect import getdoc
 from numbers import Real
 from types import NoneType
-from typing import Any, get_args, get_type_hints
+from typing import Any, NamedTuple, get_args, get_type_hints
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Range
@@ -17,8 +17,10 @@ from asphalt_nscd.files.ranges import Range
 _DESCRIBED = re.compile(r"^(\w+) : .*\n((?:    .+(?:\n|$))+)", re.MULTILINE)  # a parameter, in numpydoc form
 
 
-@dataclass(frozen=True)
-class Option:
+hints_of = cache(get_type_hints)
+
+
+class Option(NamedTuple):
     """What is said of a value that a user gives.
 
     `key` names it in a study and, in lower case, at the command line, there in `unit` of the field: 1e-3 for mm of m.
@@ -71,12 +73,12 @@ def options_of(kind: Any) -> dict[str, Option]:
     >>> said.key, said.default, str(said.range), said.help
     ('vibration_Hz', 30.0, 'greater than 0 and at most 1000', 'Frequency of the top wall, Hz.')
     """
-    hints, described = get_type_hints(kind), dict(_DESCRIBED.findall(getdoc(kind) or ""))
+    hints, described = hints_of(kind), dict(_DESCRIBED.findall(getdoc(kind) or ""))
     made = {
         one.name: option_of(one.name, one, hints[one.name]) for one in fields(kind) if "help" in one.metadata
     }
     return {
-        name: replace(said, help=said.help or " ".join(described.get(name, "").split()))
+        name: said._replace(help=said.help or " ".join(described.get(name, "").split()))
         for name, said in made.items()
     }
 

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.bending.fatigue import FAILURE
-from asphalt_nscd.bending.settings import MILLION, FatigueLaw
+from asphalt_nscd.bending.further_settings import MILLION, FatigueLaw
 
 STRAINS = (90e-6, 120e-6, 150e-6)
 EPSILON6, SLOPE, SCATTER = 100e-6, -1 / 5, 0.25

@@ -1,0 +1,160 @@
+"""What a user sets of a hold, a fall and fatigue. No numpy, for the command line asks it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from asphalt_nscd.bending.settings import MOST_STEPS
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.options import Ranged, option
+from asphalt_nscd.files.ranges import Range
+
+if TYPE_CHECKING:
+    import numpy as np
+
+MOST_STEPS_OF_FALL = 1_000_000  # of some milliseconds each
+MILLION = 1e6  # cycles, to which epsilon6 refers
+STRAINS = Range(low=1e-8, high=0.1)
+
+
+@dataclass(frozen=True)
+class Hold(Ranged):
+    """What is held, for how long, in how many equal steps.
+
+    Parameters
+    ----------
+    duration_s : float
+        How long, s.
+    steps : int
+        Equal time steps; errors fall with their length.
+    force_N : float, optional
+        Force held, N: creep.
+    displacement_m : float, optional
+        Displacement of the head held, m: relaxation. The default, at the amplitude of usual tests.
+
+    Raises
+    ------
+    InputError
+        For force and displacement together, or a zero held.
+
+    Examples
+    --------
+    >>> Hold(duration_s=10.0, steps=500, force_N=300.0).time_step
+    0.02
+    """
+
+    duration_s: float = option(default=10.0, low=1e-6, high=1e9)
+    steps: int = option(default=1000, low=10, high=MOST_STEPS)
+    force_N: float | None = option(default=None, low=-1e9, high=1e9)
+    displacement_m: float | None = option(default=None, low=-1.0, high=1.0)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.force_N is not None and self.displacement_m is not None:
+            raise InputError("hold: give force_N for creep or displacement_m for relaxation, not both.")
+        if 0.0 in (self.force_N, self.displacement_m):
+            raise InputError("hold: nothing is held; give a force or a displacement other than zero.")
+
+    @property
+    def time_step(self) -> float:
+        """Length of a step.
+
+        Returns
+        -------
+        float
+            [s].
+        """
+        return self.duration_s / self.steps
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Frequencies that a law must hold for.
+
+        Returns
+        -------
+        tuple of float
+            [Hz]: 1 / (2 pi t) at the last and at the first time t.
+        """
+        return 0.5 / math.pi / self.duration_s, 0.5 / math.pi / self.time_step
+
+
+@dataclass(frozen=True)
+class Fall(Ranged):
+    """How a specimen falls, and how that is computed.
+
+    `height` of its lowest point over the floor in m; `tilt` of its axis from upright in degrees; `sawn` is the place of
+    the saw as a share of the length from the foot, 0 for none; `duration` and `time_step` in s; `frames` counts the
+    instants kept, the first included.
+
+    >>> Fall(duration=0.1).steps
+    500
+    """
+
+    height: float = option(
+        "Over the floor.", 0.02, name="height_m", key="height_mm", unit=1e-3, low=0.0, high=10.0
+    )
+    tilt: float = option("Of its axis from upright.", 75.0, key="tilt_deg", low=-180.0, high=180.0)
+    sawn: float = option(
+        "Where it is sawn in two, as a share of its length from the foot; 0: nowhere.",
+        0.5,
+        low=0.0,
+        below=1.0,
+    )
+    duration: float = option("How long it is followed.", 0.5, key="duration_s", above=0.0, high=100.0)
+    time_step: float = option("Time step.", 2e-4, key="time_step_s", low=1e-7, high=1e-2)
+    frames: int = option("Instants to keep for ParaView.", 50, low=2, high=10_000)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.steps > MOST_STEPS_OF_FALL:
+            raise InputError(
+                f"fall: {self.steps:.3g} steps of {self.time_step:g} s; it takes at most {MOST_STEPS_OF_FALL:g}: "
+                "raise the "
+                "time step, or follow it for less long."
+            )
+
+    @property
+    def steps(self) -> int:
+        """How many."""
+        return max(1, round(self.duration / self.time_step))
+
+
+@dataclass(frozen=True)
+class FatigueLaw(Ranged):
+    """How fast a bond tires: each cycle adds 1e-6 (e / endured)^exponent to its damage, and at 1 it is lost.
+
+    e is the amplitude of its opening over its length.
+
+    Parameters
+    ----------
+    endured : float
+        Amplitude of strain that uses a bond up in a million cycles.
+    exponent : float
+        By which its life falls with strain.
+
+    Examples
+    --------
+    >>> law = FatigueLaw(endured=100e-6, exponent=5.0)
+    >>> round(law.rate(200e-6), 9)
+    3.2e-05
+    """
+
+    endured: float = option(default=100e-6, range=STRAINS)
+    exponent: float = option(default=5.0, low=1.0, high=20.0)
+
+    def rate(self, amplitude: np.ndarray) -> np.ndarray:
+        """Damage per cycle.
+
+        Parameters
+        ----------
+        amplitude : ndarray (b,)
+            Of the strain of each bond, its opening over its length.
+
+        Returns
+        -------
+        ndarray (b,)
+            Damage that one cycle adds.
+        """
+        return (amplitude / self.endured) ** self.exponent / MILLION
