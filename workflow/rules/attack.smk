@@ -17,7 +17,7 @@ BEFORE = "results/published/attack/before.csv"
 
 
 rule attack_part:
-    """Some campaigns, as they are and with faults: one line for each diagnosis."""
+    """Some campaigns diagnosed, as they are and with faults: one line for each diagnosis."""
     input:
         code=code("diagnose", *modules_of("diagnosis.causes")),
         generator=ATTACK_CODE,
@@ -37,7 +37,7 @@ rule attack_part:
 
 
 rule attack_tables:
-    """Beside the rates of an earlier commit, which are kept."""
+    """What was put in against what was said, beside the rates of an earlier commit."""
     input:
         lines=expand("results/attack/parts/{number}.jsonl", number=range(min(ATTACK_PARTS, Size(**ATTACK).all))),
         generator=ATTACK_CODE,
@@ -73,21 +73,3 @@ rule attack_machines:
         "Pool the campaigns of {params.number} machines"
     shell:
         ATTACK_COMMAND + " machines {params.number} --folder results/attack > {log} 2>&1"
-
-
-rule attack:
-    """What is committed of the attack, and its table in docs."""
-    input:
-        files=[
-            one
-            for one in [*rules.attack_tables.output, *rules.attack_machines.output]
-            if not one.endswith((".pdf", ".svg"))
-        ],
-        machines=rules.attack_machines.output.summary,
-        measured=rules.attack_machines.output.measured,
-        summary="results/attack/summary.csv",
-        code=code("publish"),
-    message:
-        "Copy what is committed of the attack, and fill its table in docs"
-    shell:
-        "asphalt-nscd publish {input.files} --root results/attack --output results/published/attack --document docs --block attack={input.summary} --block machines={input.machines} --block machine_measured={input.measured}"

@@ -8,7 +8,6 @@ import glob
 SIZES = os.environ.get("SIZES", "1000 3000 10000").split()
 PROBLEMS = sorted(glob.glob(os.environ.get("FCLIB", "")))
 METHODS = ["sweeps", "condensed", "reduced", "chain", "yade"]
-MEASURE = f"env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 {sys.executable} benchmarks"
 PEERS = ["liggghts", "yade"]
 
 
@@ -16,27 +15,13 @@ wildcard_constraints:
     peer="|".join(PEERS),
 
 
-class Measured(NamedTuple):
-    """What a program of benchmarks/ finds out."""
-
-    message: str
-    command: str  # less the option of its output
-    output: str
-    input: dict = {}
-    steps: str = ""  # of the command line, whose source counts
-    files: list = []  # other sources that count
-    threads: int = 1
-    more: dict = {}  # other outputs
-
-
 COMPILED = {step: f"<results>/compiled/{step}" for step in ("deposit", "simulate")}
 SPHERES = {"compiled": COMPILED["deposit"], "counts": COUNTS}
 MODELLED = {"compiled": COMPILED["simulate"], "model": f"{model()}.h5".format(sample=SAMPLES[0])}
 TYPICAL_LAW = {"law": LAW.format(temperature=TYPICAL)}
 
-# Rules of programs; mappings and rigs are added to them.
-MEASURED = {
-    "benchmark_pouring": Measured(
+MADE |= {
+    "benchmark_pouring": Made(
         "Pour 14 160 spheres",
         "pouring.py nscd {input.counts} --rest {output.rest}",
         "results/benchmark/rows/pouring-nscd.csv",
@@ -44,14 +29,14 @@ MEASURED = {
         "deposit",
         more={"rest": "results/benchmark/rest.npy"},  # where they lie, for peers
     ),
-    "benchmark_pouring_peer": Measured(
+    "benchmark_pouring_peer": Made(
         "Pour 14 160 spheres by {wildcards.peer}",
         "pouring.py {wildcards.peer} {input.counts} --rest {input.rest}",  # the same lattice and physical time
         "results/benchmark/rows/pouring-{peer}.csv",
         {"counts": COUNTS, "rest": "results/benchmark/rest.npy"},
         files=["benchmarks/pour.liggghts", "benchmarks/yade_pour.py"],
     ),
-    "benchmark_cycle": Measured(
+    "benchmark_cycle": Made(
         "One cycle of bending: {wildcards.method}",
         "cycle.py {wildcards.method} {input.model} {input.law} --specimen {input.specimen}",
         "results/benchmark/rows/cycle-{method}.csv",
@@ -59,7 +44,7 @@ MEASURED = {
         "simulate",
         ["benchmarks/yade_bonds.py"],
     ),
-    "benchmark_preparation": Measured(
+    "benchmark_preparation": Made(
         "Pour and bond {wildcards.size} spheres",
         "growth.py prepare {wildcards.size} {input.counts} --specimen {output.specimen}",
         "results/benchmark/rows/preparation-{size}.csv",
@@ -67,30 +52,30 @@ MEASURED = {
         "deposit trim",
         more={"specimen": "results/benchmark/specimens/{size}.h5"},
     ),
-    "benchmark_growth": Measured(
+    "benchmark_growth": Made(
         "Test a specimen of {wildcards.size} spheres poured",
         "growth.py test {wildcards.size} {input.specimen} {input.law}",
         "results/benchmark/rows/growth-{size}.csv",
         TYPICAL_LAW | {"compiled": COMPILED["simulate"], "specimen": "results/benchmark/specimens/{size}.h5"},
         "condense simulate",
     ),
-    "benchmark_fclib": Measured(
+    "benchmark_fclib": Made(
         "Solve problems in FCLIB's format",
         "fclib.py {input.problems}",
         "results/benchmark/rows/fclib.csv",
         {"problems": PROBLEMS},
         "fclib",
     ),
-    "benchmark_law": Measured(
+    "benchmark_law": Made(
         "Fit a law to 54, 120 and 1000 tests", "law.py", "results/benchmark/rows/law.csv", steps="diagnose"
     ),
-    "benchmark_diagnosis": Measured(
+    "benchmark_diagnosis": Made(
         "Diagnose 54, 120 and 1000 tests",
         "diagnosis.py 54 120 1000",
         "results/benchmark/diagnosis.csv",
         steps="diagnose",
     ),
-    "benchmark_outside": Measured(
+    "benchmark_outside": Made(
         "Bend beams of spheres that LIGGGHTS poured, and of ours",
         "outside.py {input.counts} --box 0.06,0.01,0.2 --seeds 1,2,3",  # what is compared does not depend on the size
         "results/benchmark/outside.csv",
@@ -98,7 +83,7 @@ MEASURED = {
         "deposit trim simulate",
         ["benchmarks/pour.liggghts"],
     ),
-    "benchmark_density": Measured(
+    "benchmark_density": Made(
         "Pour from three heights, and between smooth walls",
         "density.py {input.counts}",
         "results/benchmark/density.csv",
@@ -106,12 +91,13 @@ MEASURED = {
         "deposit",
     ),
 }
-
-
-rule benchmark:
-    """How fast: one table, the part of it that stands beside peers, and how each stage grows."""
-    input:
-        rows=[
+MADE["benchmark"] = Made(
+    "Collect the benchmarks: all, those that stand beside peers, and how each stage grows",
+    "collect.py {input.rows} --output {output.table} --beside {output.beside} --growth {output.growth}"
+    " --earlier results/published/benchmark",  # of sizes and peers that are not measured now
+    "results/benchmark/benchmark.csv",
+    {
+        "rows": [
             "results/benchmark/rows/pouring-nscd.csv",
             *expand("results/benchmark/rows/pouring-{peer}.csv", peer=PEERS),
             *expand("results/benchmark/rows/cycle-{method}.csv", method=METHODS),
@@ -119,17 +105,8 @@ rule benchmark:
             "results/benchmark/rows/fclib.csv",
             "results/benchmark/rows/law.csv",
             "results/benchmark/diagnosis.csv",
-        ],
-        code="benchmarks/collect.py",
-    output:
-        table="results/benchmark/benchmark.csv",
-        beside="results/benchmark/beside.csv",
-        growth="results/benchmark/growth.csv",
-    log:
-        "results/benchmark/logs/collect.log",
-    params:
-        earlier="results/published/benchmark",  # of sizes and peers that are not measured now
-    message:
-        "Collect the benchmarks"
-    shell:
-        f"{MEASURE}/collect.py {{input.rows}} --output {{output.table}} --beside {{output.beside}} --growth {{output.growth}} --earlier {{params.earlier}} > {{log}} 2>&1"
+        ]
+    },
+    more={"beside": "results/benchmark/beside.csv", "growth": "results/benchmark/growth.csv"},
+)
+RECORDED["benchmark_provenance"] = ("benchmark", ["benchmark.csv"])

@@ -98,7 +98,7 @@ rule blind_real:
 
 
 rule blind_real_tables:
-    """Rates only: a real table need not be redistributable."""
+    """The same for real tables, rates only: a table need not be redistributable."""
     input:
         lines=REAL,
         code=blind_code("real_tables", "tables", "score", "plan"),
@@ -116,7 +116,7 @@ rule blind_real_tables:
 
 
 rule blind_tables:
-    """The seals are opened."""
+    """The seals are opened: what was hidden against what was found."""
     input:
         lines=[*CHUNKS, *INSIDE],
         code=blind_code("tables", "score", "plan"),
@@ -170,27 +170,3 @@ rule blind_figure:
         "Draw {wildcards.name}"
     shell:
         BLIND + " figure {wildcards.name} {input.table} --output-stem {params.stem} > {log} 2>&1"
-
-
-rule blind:
-    """What is committed of the campaign, and its summary in docs."""
-    input:
-        summary="<results>/summary.csv",
-        real="<results>/real_summary.csv",
-        reported=rules.blind_reported.output.summary,
-        files=[
-            "<results>/reported.csv",
-            "<results>/reported_summary.csv",
-            *(f"<results>/{name}.csv" for name in [*RATES, *REAL_RATES]),
-            *(f"<results>/figures/{name}.png" for name in BLIND_FIGURES),
-            "<results>/campaign.json",
-            "<results>/real_campaign.json",
-        ],
-        code=code("publish"),
-    params:
-        root=f"results/{STUDY['study']}",
-        output=f"results/published/{STUDY['study']}",
-    message:
-        "Copy what is committed of the blind tests, and fill their table in docs"
-    shell:
-        "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --document docs --block blind={input.summary} --block blind_real={input.real} --block blind_reported={input.reported}"

@@ -1,57 +1,80 @@
-# What ends a campaign beside the study: its figures and tables, and the record of what made them.
+# Campaigns beside the study, each only on request: snakemake NAME --cores all --configfile config/paper.yaml
 
-# Rule: step and what it shows, its file less the ending of a figure, {kind of data: files}.
-SHOWN = {
-    "forecast_figure": (
-        "figure fig_forecast",
-        "results/forecast/figures/fig_forecast",
-        {"points": ["results/forecast/mixes/points.csv"]},
-    ),
-}
-# Rule: folder of the campaign, and files in it that are made before.
-RECORDED = {"forecast_provenance": ("forecast", ["mixes/overall.csv"])}
+
+class Made(NamedTuple):
+    """What one command of a campaign makes."""
+
+    message: str
+    command: (
+        str  # a program of benchmarks/, on one core, or a step; it ends with the output unless it names that itself
+    )
+    output: str
+    input: dict = {}
+    steps: str = ""  # further ones, whose source counts
+    files: list = []  # sources that count
+    modules: list = []  # that the step picks by name
+    threads: int = 1
+    more: dict = {}  # outputs
+
+
+MEASURE = f"env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 {sys.executable} benchmarks"
+MADE = {}
+SHOWN = {}  # rule: step and what it shows, its file less the ending of a figure, {kind of data: files}
+RECORDED = {}  # rule of what made a campaign: its folder, and what is made before
+
+
+include: "forecast.smk"  # a mix from its binder and recipe alone
+include: "verification.smk"  # is the core right
+
 
 if POURED:
-    COURSES, PROFILES = (
-        expand(f"results/fatigue/{kind}/{{sample}}.csv", sample=SAMPLES) for kind in ("courses", "profiles")
-    )
-    SHOWN |= {
-        "mapping": (
-            "figure fig_mapping",
-            "results/mapping/figures/fig_mapping",
-            {"mapping": ["results/mapping/mapping.csv"]},
-        ),
-        "fatigue_table": ("table fatigue", "results/fatigue/fatigue.csv", {"course": COURSES}),
-        "fatigue_summary": (  # beside what is published, theory, and every cycle
-            "table fatigue_summary",
-            "results/fatigue/summary.csv",
-            {
-                "course": COURSES,
-                "profile": PROFILES,
-                "check": expand("results/fatigue/check/{way}.csv", way=["jumps", "fine", "every_cycle"]),
-                "specimen": expand(FATIGUE_SPECIMEN, sample=SAMPLES[0]),
-            },
-        ),
-        "fatigue_figure": (
-            "figure fig_fatigue",
-            "results/fatigue/figures/fig_fatigue",
-            {"course": COURSES, "profile": PROFILES},
-        ),
-        "fall_table": ("table falls", "results/fall/falls.csv", {"fall": FALLS}),
-        "fall_figure": ("figure fig_fall", "results/fall/figures/fig_fall", {"fall": FALLS[-1:]}),
-    }
-    RECORDED |= {
-        "benchmark_provenance": ("benchmark", ["benchmark.csv"]),
-        "mapping_provenance": ("mapping", ["mapping.csv"]),
-        "fatigue": (
-            "fatigue",
-            ["fatigue.csv", "summary.csv", *multiext("figures/fig_fatigue", ".pdf", ".png", ".svg")],
-        ),
-        "rigs": ("rigs", ["rigs.csv"]),
-        "fall": ("fall", ["falls.csv", "film.pvd", *multiext("figures/fig_fall", ".pdf", ".png", ".svg")]),
-    }
 
-for name, (shown, target, data) in SHOWN.items():
+    include: "benchmark.smk"  # how fast is it beside its peers
+    include: "mapping.smk"  # how bonds carry the law, by size and packing
+    include: "rigs.smk"  # the specimens of all tests against the law
+    include: "fatigue.smk"  # bonds that tire
+    include: "fall.smk"  # bonds that turn, and pieces that fall
+
+
+def job_of(name, output):
+    """Name of the log and the benchmark of a job."""
+    return f"{name}/{Path(output).stem}" if "{" in output else name
+
+
+for name, made in MADE.items():
+    program = made.command.split()[0]
+    measured = program.endswith(".py")
+
+    rule:
+        name:
+            name
+        input:
+            **made.input,
+            code=[
+                f"benchmarks/{program}" if measured else code(program, *made.modules),
+                *made.files,
+                *map(code, made.steps.split()),
+            ],
+        output:
+            **made.more,
+            table=made.output,
+        log:
+            f"results/{Path(made.output).parts[1]}/logs/{job_of(name, made.output)}.log",
+        benchmark:
+            f"<results>/benchmarks/{job_of(name, made.output)}.tsv"
+        conda:
+            None if measured else ENVIRONMENT
+        threads: made.threads
+        message:
+            made.message
+        shell:
+            (f"{MEASURE}/" if measured else "asphalt-nscd ")
+            + made.command
+            + (" " if "--output " in made.command else " --output {output.table} ")
+            + "> {log} 2>&1"
+
+
+for name, (shown, target, files) in SHOWN.items():
     step, module = shown.split()
     drawn = step == "figure"
 
@@ -59,12 +82,12 @@ for name, (shown, target, data) in SHOWN.items():
         name:
             name
         input:
-            **data,
+            **files,
             code=code(step, f"reporting.{step}s.{module}"),
         output:
             multiext(target, ".pdf", ".png", ".svg") if drawn else target,
         log:
-            log_of(target),
+            f"results/{Path(target).parts[1]}/logs/{name}.log",
         conda:
             ENVIRONMENT
         params:

@@ -6,64 +6,67 @@ FITTED_LAWS = expand("<results>/laws/fitted/T{temperature}.json", temperature=TE
 TYPICAL = TEMPERATURES[len(TEMPERATURES) // 2]  # where the study names no other
 SOFTER = label(SENSITIVITY["temperature_C"]) if SENSITIVITY else TYPICAL
 FIRST = SAMPLES[0]
+DEPOSITS = expand("<results>/deposits/{sample}.h5", sample=SAMPLES)
+PRINTED = STUDY.get("published", {})  # tables of it
+PAPER_LAWS = [STUDY["laws"]["published"]["table"]] if "published" in STUDY["laws"] else []
+ERRORS = [PRINTED["errors_table"]] if PRINTED else []
 
-RESIDUALS = {"diagnosis": DIAGNOSED[:1], "residuals": DIAGNOSED[1:2]}
-
-ELEMENT = {
-    "laws": expand(LAW, temperature=label(AUDIT["temperature_C"]) if AUDIT else TYPICAL),
+# Files of a kind of data, where it is not the table of its name.
+FILES = {
+    "common": COMMON_LAW,
+    "deposits": DEPOSITS,
+    "diagnosis": DIAGNOSED[:1],
+    "errors": ERRORS,
+    "extended": EXTENDED_SIMULATIONS,
+    "facets": FACET_SIMULATIONS,
+    "fitted": FITTED_LAWS,
+    "laws": USED_LAWS,
+    "likely": LIKELY_SIMULATIONS,
+    "residuals": DIAGNOSED[1:2],
+    "specimen": [f"<results>/specimens/{FIRST}.h5"],
+    "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
     "study": ["<results>/study.json"],
 }
 
-# name: category in the report, {kind of data: files}
+
+def data(kinds, **others):
+    """{kind of data: files} for figures and tables."""
+    return {kind: FILES.get(kind, [f"<results>/{kind}.csv"]) for kind in kinds.split()} | others
+
+
+def waveform(temperature, frequency):
+    """The test of the first sample."""
+    return TESTS["simulate"].files(sample=FIRST, temperature=temperature, frequency=frequency)
+
+
+FASTEST, SLOWEST = (which(FREQUENCIES, key=float) for which in (max, min))
+ELEMENT = {
+    "laws": expand(LAW, temperature=label(AUDIT["temperature_C"]) if AUDIT else TYPICAL),
+    "study": FILES["study"],
+}
+
+# Name: part of the report, {kind of data: files}.
 FIGURES = {
-    "fig_residual_map": ("0 Diagnosis", RESIDUALS),
-    "fig_black": ("0 Diagnosis", RESIDUALS),
-    "fig_master": ("0 Diagnosis", RESIDUALS),
-    "fig_limits": ("0 Diagnosis", {"diagnosis": RESIDUALS["diagnosis"]}),
-    "fig01": ("1 Measurements and laws", {"study": ["<results>/study.json"]}),
-    "fig07": (
-        "3 Bending tests",
-        {"test": TESTS["simulate"].files(sample=FIRST, temperature=TYPICAL, frequency=max(FREQUENCIES, key=float))},
-    ),
-    "fig08": (
-        "3 Bending tests",
-        {
-            "test": TESTS["simulate"].files(sample=FIRST, temperature=SOFTER, frequency=min(FREQUENCIES, key=float)),
-            "specimen": [f"<results>/specimens/{FIRST}.h5"],
-        },
-    ),
-    "fig09": ("3 Bending tests", {"simulations": SIMULATIONS, "measured": MEASURED, "laws": USED_LAWS}),
-    "fig10": ("3 Bending tests", {"simulations": SIMULATIONS, "measured": MEASURED, "laws": USED_LAWS}),
-    "fig_forces": (
-        "3 Bending tests",
-        {"model": [f"{model()}.h5".format(sample=FIRST)], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
-    ),
-    "fig_ratio": ("3 Bending tests", {"simulations": SIMULATIONS}),
+    "fig_residual_map": ("0 Diagnosis", data("diagnosis residuals")),
+    "fig_black": ("0 Diagnosis", data("diagnosis residuals")),
+    "fig_master": ("0 Diagnosis", data("diagnosis residuals")),
+    "fig_limits": ("0 Diagnosis", data("diagnosis")),
+    "fig01": ("1 Measurements and laws", data("study")),
+    "fig07": ("3 Bending tests", {"test": waveform(TYPICAL, FASTEST)}),
+    "fig08": ("3 Bending tests", {"test": waveform(SOFTER, SLOWEST)} | data("specimen")),
+    "fig09": ("3 Bending tests", data("simulations measured laws")),
+    "fig10": ("3 Bending tests", data("simulations measured laws")),
+    "fig_forces": ("3 Bending tests", {"model": expand(f"{model()}.h5", sample=FIRST)} | data("specimen")),
+    "fig_ratio": ("3 Bending tests", data("simulations")),
 }
-DEPOSITS = expand("<results>/deposits/{sample}.h5", sample=SAMPLES)
+# Name: {kind of data: files}.
 TABLES = {
-    "samples": {"simulations": SIMULATIONS, "deposits": DEPOSITS},
-    "table3": {
-        "fitted": FITTED_LAWS,
-        "measured": MEASURED,
-        "published": [STUDY["laws"]["published"]["table"]] if "published" in STUDY["laws"] else [],
-    },
-    "table4": {
-        "simulations": SIMULATIONS,
-        "measured": MEASURED,
-        "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
-    },
-    "ladder": {
-        "simulations": SIMULATIONS,
-        "likely": LIKELY_SIMULATIONS,
-        "facets": FACET_SIMULATIONS,
-        "extended": EXTENDED_SIMULATIONS,
-        "measured": MEASURED,
-        "diagnosis": DIAGNOSED[:1],
-        "published": [STUDY["published"]["errors_table"]] if "published" in STUDY else [],
-    },
+    "samples": data("simulations deposits"),
+    "table3": data("fitted measured", published=PAPER_LAWS),
+    "table4": data("simulations measured", published=ERRORS),
+    "ladder": data("simulations likely facets extended measured diagnosis", published=ERRORS),
 }
-# name: category in the report
+# Name of a table: part of the report.
 PAGES = {
     "ladder": "0 Diagnosis",
     "measured": "1 Measurements and laws",
@@ -75,33 +78,23 @@ PAGES = {
 }
 
 if POURED:
-    FIGURES["fig05"] = (
-        "2 Preparation",
-        {"deposit": [f"<results>/deposits/{FIRST}.h5"], "specimen": [f"<results>/specimens/{FIRST}.h5"]},
-    )
+    FIGURES["fig05"] = ("2 Preparation", {"deposit": DEPOSITS[:1]} | data("specimen"))
     FIGURES["fig_compaction"] = ("2 Preparation", {"deposit": DEPOSITS})
     PAGES["preparation"] = "2 Preparation"
-    TABLES["preparation"] = {"deposits": DEPOSITS}
-if "published" in STUDY:
-    FIGURES["fig02"] = ("2 Preparation", {"study": ["<results>/study.json"]})
-    FIGURES["fig03"] = ("1 Measurements and laws", ELEMENT | {"specimen": [f"<results>/specimens/{FIRST}.h5"]})
+    TABLES["preparation"] = data("deposits")
+if PRINTED:
+    FILES |= {"grading": [PRINTED["grading_table"]], "counts": [PRINTED["counts_table"]]}
+    FIGURES["fig02"] = ("2 Preparation", data("study"))
+    FIGURES["fig03"] = ("1 Measurements and laws", ELEMENT | data("specimen"))
     FIGURES["fig04"] = ("1 Measurements and laws", ELEMENT)
     PAGES["table1"] = "1 Measurements and laws"
-    TABLES["table1"] = {"grading": [STUDY["published"]["grading_table"]], "used": [COUNTS]}
+    TABLES["table1"] = data("grading", used=[COUNTS])
     PAGES["table2"] = "2 Preparation"
-    TABLES["table2"] = {
-        "grading": [STUDY["published"]["grading_table"]],
-        "published": [STUDY["published"]["counts_table"]],
-        "used": [COUNTS],
-    }
+    TABLES["table2"] = data("grading", published=FILES["counts"], used=[COUNTS])
     if "reconstruct" in STUDY["measurements"]:
         beside = ["smoothness", "ensemble"] if STUDY["study"] == "paper" else []  # 20 s that no smaller study needs
-        for name in ("reconstructions", *beside):
-            PAGES[name] = "1 Measurements and laws"
-            TABLES[name] = {
-                "laws": [STUDY["laws"]["published"]["table"]],
-                "errors": [STUDY["published"]["errors_table"]],
-            }
+        PAGES |= dict.fromkeys(["reconstructions", *beside], "1 Measurements and laws")
+        TABLES |= dict.fromkeys(["reconstructions", *beside], {"laws": PAPER_LAWS} | data("errors"))
 if STEPPING:
     FIGURES["fig06"] = ("4 Time step", {"solved": SOLVED, "part": PART_SOLVED, "stopped": STOPPED})
     PAGES["time_steps"] = "4 Time step"
@@ -113,33 +106,19 @@ if SENSITIVITY:
     PAGES["sensitivity"] = "5 Sensitivity"
     for name, parameter in {"fig11": "Em", "fig12": "eta_m", "fig13": "Ek", "fig14": "eta_k"}.items():
         if parameter in SENSITIVITY["parameters"]:
-            FIGURES[name] = (
-                "5 Sensitivity",
-                {
-                    "sensitivity": ["<results>/sensitivity.csv"],
-                    "simulations": SIMULATIONS,
-                    "measured": MEASURED,
-                    "laws": expand(LAW, temperature=SOFTER),
-                },
-            )
+            shown = data("sensitivity simulations measured", laws=expand(LAW, temperature=SOFTER))
+            FIGURES[name] = ("5 Sensitivity", shown)
 if AUDIT:
-    PAGES["readings"] = "6 Audit"
-    FIGURES["fig_readings"] = ("6 Audit", {"readings": ["<results>/readings.csv"], "simulations": SIMULATIONS})
-    PAGES["bond_readings"] = "6 Audit"
+    PAGES |= {"readings": "6 Audit", "bond_readings": "6 Audit"}
+    FIGURES["fig_readings"] = ("6 Audit", data("readings simulations"))
     TABLES["bond_readings"] = {
         "deposits": [*DEPOSITS, *expand("<results>/deposits/{sample}.h5", sample=PACKED[1:])],
-        "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
-        "simulations": SIMULATIONS,
-        "packing": ["<results>/packing.csv"] if PACKING else [],
+        **data("specimens simulations packing" if PACKING else "specimens simulations"),
         "blocked": BLOCKED[:1],
     }
-if LIKELY and "published" in STUDY:
-    PAGES["likely"] = PAGES["levels"] = "6 Audit"
-    TABLES["levels"] = {
-        "simulations": SIMULATIONS,
-        "likely": LIKELY_SIMULATIONS,
-        "errors": [STUDY["published"]["errors_table"]],
-    }
+if LIKELY and PRINTED:
+    PAGES |= {"likely": "6 Audit", "levels": "6 Audit"}
+    TABLES["levels"] = data("simulations likely errors")
 if PACKING:
     PAGES["packing"] = "2 Preparation"
     TABLES["packing"] = {
@@ -147,61 +126,32 @@ if PACKING:
         "facets": PACKING_FACETS,
         "deposits": expand("<results>/deposits/{sample}.h5", sample=PACKED),
     }
-    FIGURES["fig_packing"] = ("2 Preparation", {"packing": ["<results>/packing.csv"]})
-if {"audit", "sensitivity", "packing_study", "time_step_study", "published"} <= set(STUDY):
+    FIGURES["fig_packing"] = ("2 Preparation", data("packing"))
+if AUDIT and SENSITIVITY and PACKING and STEPPING and PRINTED:
     PAGES["audit"] = "6 Audit"
     TABLES["audit"] = {
         "statements": [shipped("data/paper/statements.csv")],
-        "grading": [STUDY["published"]["grading_table"]],
-        "counts": [STUDY["published"]["counts_table"]],
-        "laws": [STUDY["laws"]["published"]["table"]],
-        "errors": [STUDY["published"]["errors_table"]],
-        "fitted": FITTED_LAWS,
-        "measured": MEASURED,
-        "simulations": SIMULATIONS,
-        "sensitivity": ["<results>/sensitivity.csv"],
-        "readings": ["<results>/readings.csv"],
-        "bond_readings": ["<results>/bond_readings.csv"],
-        "packing": ["<results>/packing.csv"],
-        "facets": FACET_SIMULATIONS,
-        "table4": ["<results>/table4.csv"],
-        "deposits": DEPOSITS,
-        "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
-        "time_steps": ["<results>/time_steps.csv"],
+        **data("grading counts laws errors fitted measured simulations sensitivity readings bond_readings packing"),
+        "laws": PAPER_LAWS,
+        **data("facets table4 deposits specimens time_steps"),
         "stopped": STOPPED,
-        "waveform": FIGURES["fig07"][1]["test"],
-        "profile": FIGURES["fig08"][1]["test"],
+        "waveform": waveform(TYPICAL, FASTEST),
+        "profile": waveform(SOFTER, SLOWEST),
     }
-
 if COMMON_LAW:
-    PAGES["extended"] = "0 Diagnosis"
-    PAGES["prony"] = "0 Diagnosis"
-    PAGES["dynamic_modulus"] = "0 Diagnosis"
-    FIGURES["fig10_extended"] = (
-        "0 Diagnosis",
-        {
-            "simulations": SIMULATIONS,
-            "extended": EXTENDED_SIMULATIONS,
-            "measured": MEASURED,
-            "laws": USED_LAWS,
-            "common": COMMON_LAW,
-        },
-    )
+    PAGES |= dict.fromkeys(["extended", "prony", "dynamic_modulus"], "0 Diagnosis")
+    FIGURES["fig10_extended"] = ("0 Diagnosis", data("simulations extended measured laws common"))
 if REMAPPED:
-    PAGES["facets"] = "0 Diagnosis"
-    PAGES["fracture"] = "3 Bending tests"
-    TABLES["fracture"] = {"simulations": SIMULATIONS, "facets": FACET_SIMULATIONS}
-
+    PAGES |= {"facets": "0 Diagnosis", "fracture": "3 Bending tests"}
+    TABLES["fracture"] = data("simulations facets")
 if FAMILIES:
-    PAGES["rivals"] = "0 Diagnosis"
+    PAGES |= {"rivals": "0 Diagnosis", "families": "0 Diagnosis"}
     TABLES["rivals"] = {"measured": [*MEASURED, *expand(f"{FAMILY}measured.csv", family=FAMILIES)]}
-    PAGES["families"] = "0 Diagnosis"
-    TABLES["families"] = {
-        "measured": [*MEASURED, *expand(f"{FAMILY}measured.csv", family=FAMILIES)],
+    TABLES["families"] = TABLES["rivals"] | {
         "diagnosis": [DIAGNOSED[0], *expand(f"{FAMILY}diagnosis.json", family=FAMILIES)],
         "law": [*COMMON_LAW, *expand(f"{FAMILY}law.json", family=FAMILIES)],
         "specimen": [f"<results>/diagnosis/specimens/{FIRST}.h5"],
-        "ladder": ["<results>/ladder.csv"],
+        **data("ladder"),
     }
 
 FORECAST = MAIN and CLONE and not BARE and STUDY["study"] == "paper"  # beside the study: mixes from their recipes

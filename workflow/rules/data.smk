@@ -14,7 +14,7 @@ def records(table):
 
 
 rule reconstruct:
-    """The authors' measurements are not published; what comes out is labelled "reconstructed" from here on."""
+    """Measurements from the published laws, called "reconstructed" from here on: the authors' are not published."""
     input:
         table=STUDY["laws"]["published"]["table"] if "published" in STUDY["laws"] else [],
         code=code("reconstruct"),
@@ -40,7 +40,7 @@ rule reconstruct:
 
 
 rule reduce:
-    """Forces and displacements at the head become complex moduli."""
+    """Section 2: forces and displacements at the head as complex moduli."""
     input:
         measurements=MEASUREMENTS,
         records=records(MEASUREMENTS),

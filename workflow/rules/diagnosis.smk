@@ -25,7 +25,7 @@ rule reduced_specimen:
 
 
 rule diagnose:
-    """Residuals, ladder of causes, verdict; the log holds the ladder as a table."""
+    """What the simulation gets wrong: residuals, ladder of causes, verdict; the log holds the ladder."""
     input:
         measured="<results>/measured.csv",
         simulations="<results>/simulations.csv",
@@ -54,7 +54,7 @@ rule diagnose:
 
 
 rule diagnosis_page:
-    """What to make of it, for who has to act on it."""
+    """The diagnosis as a page: what to make of it, for who has to act on it."""
     input:
         diagnosis=DIAGNOSED[0],
         residuals=DIAGNOSED[1],

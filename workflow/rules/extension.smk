@@ -3,7 +3,7 @@ from itertools import product
 
 
 rule extend:
-    """One continuous law at the temperature of each test, as a Kelvin chain; causes at the head as a rig."""
+    """Laws and rig of the extended tests: one continuous law as Kelvin chains, causes at the head as a rig."""
     input:
         diagnosis=DIAGNOSED[0],
         law=COMMON_LAW,

@@ -57,7 +57,7 @@ use rule reduce as reduce_family with:
 
 
 use rule diagnose as diagnose_family with:
-    """One law for all temperatures, as for the measurements of the study."""
+    """Those diagnosed: one law for all temperatures, as for the measurements of the study."""
     input:
         measured=f"{FAMILY}measured.csv",
         specimen=f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",

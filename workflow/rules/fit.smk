@@ -2,7 +2,7 @@
 
 
 rule fit:
-    """To the measurements, by least squares on the complex modulus."""
+    """Section 4.1: the Burgers law of a temperature, by least squares on the complex modulus."""
     input:
         measured="<results>/measured.csv",
         code=code("fit"),
@@ -22,7 +22,7 @@ rule fit:
 
 
 rule published_law:
-    """As printed in Table 3, read in the unit that the study states. Other rows of the table do not count."""
+    """The Burgers law of a temperature in Table 3, in the unit that the study states; other rows do not count."""
     input:
         row=row_at(STUDY["laws"].get("published", {}).get("table")),
         code=code("published-law"),
@@ -64,7 +64,7 @@ rule scale_law:
 
 
 use rule published_law as pascal_law with:
-    """Table 3 in the unit that the paper prints."""
+    """The same in the unit that the paper prints."""
     output:
         "<results>/laws/pascal/T{temperature}.json",
     log:

@@ -148,6 +148,14 @@ rule forecast_paper:
         "../../studies/forecast/paper_mix.py"
 
 
+SHOWN["forecast_figure"] = (
+    "figure fig_forecast",
+    "results/forecast/figures/fig_forecast",
+    {"points": ["results/forecast/mixes/points.csv"]},
+)
+RECORDED["forecast_provenance"] = ("forecast", ["mixes/overall.csv"])
+
+
 rule forecast_wrong_recipes:
     """Recipes with one wrong input, drawn by models that are not the forecast's. Only on request."""
     input:
@@ -169,11 +177,11 @@ rule forecast_wrong_recipes:
 
 
 rule forecast:
-    """All of it."""
+    """A mix from its binder and recipe alone, and what that is worth."""
     input:
         rules.forecast_packings.output,
         rules.forecast_recipe.output,
         rules.forecast_mixes.output,
-        multiext("results/forecast/figures/fig_forecast", ".pdf", ".png", ".svg"),
         rules.forecast_voids.output,
+        multiext("results/forecast/figures/fig_forecast", ".pdf", ".png", ".svg"),
         "results/forecast/provenance.json",

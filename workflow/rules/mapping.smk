@@ -10,21 +10,21 @@ if MAPPING_FULL in MAPPING_SIZES:
     MAPPING_ROWS += [f"{MAPPING_FULL}-s4-friction{MAPPING_FRICTION}"]
     MAPPING_ROWS += [f"{MAPPING_FULL}-s1-friction{label(value)}" for value in PACKING.get("frictions", [])]
 
-MEASURED |= {
-    "mapping_counts": Measured(
+MADE |= {
+    "mapping_counts": Made(
         "Scale the grading to {wildcards.spheres} spheres",
         "mapping.py counts {wildcards.spheres} {input.counts:q}",
         "results/mapping/counts/{spheres}.csv",
         {"counts": COUNTS},
     ),
-    "mapping_poisson": Measured(
+    "mapping_poisson": Made(
         "Pull a prism of facets with other tangential stiffnesses",  # which Poisson's ratios facets can have
         f"mapping.py poisson {MAPPING_FULL} {{input.deposit}}",
         "results/mapping/poisson.csv",
         {"deposit": f"<results>/deposits/{SAMPLES[0]}.h5"},
         "condense trim",
     ),
-    "mapping_table": Measured(
+    "mapping_table": Made(
         "Collect the mappings",
         "mapping.py collect {input.rows} --summary {output.summary}",
         "results/mapping/mapping.csv",
@@ -32,6 +32,12 @@ MEASURED |= {
         more={"summary": "results/mapping/summary.csv"},
     ),
 }
+SHOWN["mapping"] = (
+    "figure fig_mapping",
+    "results/mapping/figures/fig_mapping",
+    {"mapping": ["results/mapping/mapping.csv"]},
+)
+RECORDED["mapping_provenance"] = ("mapping", ["mapping.csv"])
 
 
 def mapping_box(wildcards):
@@ -49,7 +55,7 @@ def mapping_deposit(wildcards):
 
 
 use rule deposit as mapping_pour with:
-    """So many spheres into a box of its own."""
+    """So many spheres, poured into a box of their own."""
     input:
         compiled="<results>/compiled/deposit",
         counts="results/mapping/counts/{spheres}.csv",

@@ -4,13 +4,13 @@
 PARTS = {"diagnosis": "0 Diagnosis"} | {name: part for name, (part, _) in FIGURES.items()} | PAGES
 
 
-for name, (category, data) in FIGURES.items():
+for name, (category, files) in FIGURES.items():
 
     rule:
         name:
             name
         input:
-            **data,
+            **files,
             code=code("figure", f"reporting.figures.{name}"),
         output:
             f"<results>/figures/{name}.pdf",
@@ -34,18 +34,18 @@ for name, (category, data) in FIGURES.items():
             data=pairs,
             stem=lambda wildcards, output: output[0].removesuffix(".pdf"),
         message:
-            f"Draw {name}"
+            f"Draw {title(name)}"
         shell:
             "asphalt-nscd figure {params.name} {params.data:q} --output-stem {params.stem} > {log} 2>&1"
 
 
-for name, data in TABLES.items():
+for name, files in TABLES.items():
 
     rule:
         name:
             name
         input:
-            **data,
+            **files,
             code=code("table", f"reporting.tables.{name}"),
         output:
             f"<results>/{name}.csv",
@@ -61,7 +61,7 @@ for name, data in TABLES.items():
             name=name,
             data=pairs,
         message:
-            f"Make {name}"
+            f"Make {title(name)}"
         shell:
             "asphalt-nscd table {params.name} {params.data:q} --output {output} > {log} 2>&1"
 

@@ -6,17 +6,18 @@ RIGS = {"cylinder": "tension-compression", "prism": "four-point bending"}
 TESTED_RIGS = os.environ.get("RIGS", " ".join(RIGS)).split()
 
 for rig, test in RIGS.items():
-    MEASURED[f"rigs_{rig}"] = Measured(
+    MADE[f"rigs_{rig}"] = Made(
         f"Test a {rig} of full size",
         f"rigs.py measure {test!r} {{input.laws}}",
         f"results/rigs/rows/{rig}.csv",
         {"laws": expand("<results>/laws/published/T{temperature}.json", temperature=[0, 15, 30])},
         "deposit trim condense simulate hold",
     )
-MEASURED["rigs_table"] = Measured(
+MADE["rigs_table"] = Made(
     "Collect the tests of full size",
     "rigs.py collect {input.rows} --summary {output.summary}",
     "results/rigs/rigs.csv",
     {"rows": expand("results/rigs/rows/{rig}.csv", rig=TESTED_RIGS)},
     more={"summary": "results/rigs/summary.csv"},
 )
+RECORDED["rigs"] = ("rigs", ["rigs.csv"])

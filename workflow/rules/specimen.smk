@@ -21,7 +21,7 @@ rule compile:
 
 
 rule deposit:
-    """Table 2's spheres rain into the box and are vibrated by the top wall."""
+    """Section 3.2: the spheres of Table 2 rain into the box and are vibrated by the top wall."""
     input:
         compiled="<results>/compiled/deposit",
         counts=COUNTS,
@@ -129,7 +129,7 @@ for kind, made in SPECIMENS.items():
 
 
 use rule deposit as deposit_loose with:
-    """More friction leaves a looser layer."""
+    """The same with more friction, which leaves a looser layer."""
     output:
         "<results>/deposits/s{seed}-friction{friction}.h5",
     log:

@@ -119,12 +119,6 @@ def options(values, *keys):
     return " ".join(f"--{key.lower().replace('_', '-')} {text(values[key])}" for key in keys or values)
 
 
-def log_of(path):
-    """Of the job that makes this file of a campaign beside the study."""
-    results, campaign, *below = Path(path).with_suffix(".log").parts
-    return os.path.join(results, campaign, "logs", *below)
-
-
 def title(name):
     """First line of a caption; numbers padded, because the report sorts by it."""
     caption = Path(shipped(f"workflow/report/{name}.rst"))
