@@ -4,7 +4,7 @@
 #   make smoke      the same chain at reduced size, in minutes
 #   make test       the tests
 #   make test-fast  the tests without the slow ones
-#   make lint       ruff and mypy
+#   make lint       ruff, snakefmt and mypy
 #   make blind      blind tests of the diagnosis: hidden effects, found or not; in the real tables of a folder
 #                   too, if ASPHALT_NSCD_TABLES names it
 #   make attack     a second program against the diagnosis, with tables as laboratories produce them: half an hour
@@ -103,6 +103,7 @@ docs: $(TOOLS) api
 lint: $(TOOLS)
 	.venv/bin/ruff check .
 	.venv/bin/ruff format --check .
+	.venv/bin/snakefmt --check --compact-diff Snakefile workflow
 	.venv/bin/mypy
 
 $(READY): requirements-study.txt pyproject.toml
