@@ -82,7 +82,7 @@ rule rule_graph:
         "<results>/logs/rule_graph.log",
     localrule: True
     params:
-        snakefile=os.path.relpath(workflow.main_snakefile),
+        snakefile=shipped("workflow/Snakefile"),
         study=PAPER,
         python=sys.executable,
     message:

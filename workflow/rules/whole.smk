@@ -16,7 +16,7 @@ rule workflow_report:
         "<results>/benchmarks/workflow_report.tsv"
     localrule: True
     params:
-        snakefile=lambda wildcards: os.path.relpath(workflow.main_snakefile),
+        snakefile=shipped("workflow/Snakefile"),
     message:
         "Put down how each file was made: {output}"
     shell:
