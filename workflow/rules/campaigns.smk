@@ -1,13 +1,13 @@
 # Campaigns beside the study, each only on request: snakemake NAME --cores all --configfile config/paper.yaml
 
+from snakemake.utils import format as fill
+
 
 class Made(NamedTuple):
     """What one command of a campaign makes."""
 
     message: str
-    command: (
-        str  # a program of benchmarks/, on one core, or a step; it ends with the output unless it names that itself
-    )
+    command: str  # a program of benchmarks/, on one core, or a step; less its output unless it says --output
     output: str
     input: dict = {}
     steps: str = ""  # further ones, whose source counts
@@ -15,6 +15,22 @@ class Made(NamedTuple):
     modules: list = []  # that the step picks by name
     threads: int = 1
     more: dict = {}  # outputs
+
+    @property
+    def program(self):
+        """The file in benchmarks/, or the step."""
+        return self.command.split()[0]
+
+    @property
+    def measured(self):
+        """By a program of benchmarks/."""
+        return self.program.endswith(".py")
+
+    def filled(self, wildcards, input, output, threads):
+        """The command of a job. In `shell` it would be that of the last rule of a loop, for jobs read that when they run."""
+        command = self.command if "--output " in self.command else f"{self.command} --output {{output.table}}"
+        start = f"{MEASURE}/" if self.measured else "asphalt-nscd "
+        return start + fill(command, wildcards=wildcards, input=input, output=output, threads=threads)
 
 
 MEASURE = f"env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 {sys.executable} benchmarks"
@@ -42,8 +58,6 @@ def job_of(name, output):
 
 
 for name, made in MADE.items():
-    program = made.command.split()[0]
-    measured = program.endswith(".py")
 
     rule:
         name:
@@ -51,7 +65,7 @@ for name, made in MADE.items():
         input:
             **made.input,
             code=[
-                f"benchmarks/{program}" if measured else code(program, *made.modules),
+                f"benchmarks/{made.program}" if made.measured else code(made.program, *made.modules),
                 *made.files,
                 *map(code, made.steps.split()),
             ],
@@ -63,15 +77,14 @@ for name, made in MADE.items():
         benchmark:
             f"<results>/benchmarks/{job_of(name, made.output)}.tsv"
         conda:
-            None if measured else ENVIRONMENT
+            None if made.measured else ENVIRONMENT
         threads: made.threads
+        params:
+            command=made.filled,
         message:
             made.message
         shell:
-            (f"{MEASURE}/" if measured else "asphalt-nscd ")
-            + made.command
-            + (" " if "--output " in made.command else " --output {output.table} ")
-            + "> {log} 2>&1"
+            "{params.command} > {log} 2>&1"
 
 
 for name, (shown, target, files) in SHOWN.items():
