@@ -316,11 +316,12 @@ def test_temperatures_off_their_target_are_noted_before_all_else():
 
 def test_orders_stand_with_purpose_and_hours():
     order = {
-        "text": "2.5 h: test specimen A again, 0.1 to 25 Hz (6 frequencies).",
+        "act": "test specimen A again, 0.1 to 25 Hz (6 frequencies)",
+        "frequencies_Hz": [0.1, 0.5, 1.0, 5.0, 10.0, 25.0],
         "purpose": "to replace the doubtful test",
         "hours": 2.5,
     }
-    at_once = {"text": "0.0 h: run this again.", "purpose": "", "hours": 0.0}
+    at_once = {"act": "run this again", "frequencies_Hz": [], "purpose": "", "hours": 0.0}
     assert answer(instructions={"orders": [order, at_once]})["Next tests"] == [
         "1. Test specimen A again, all frequencies, to replace the doubtful test (2.5 h).",
         "2. Run this again.",
@@ -381,11 +382,8 @@ def test_whole_temperatures_that_are_to_be_checked_are_named():
 
 def test_what_the_tests_do_not_determine_of_the_law_is_told():
     misses = {"mre_E_percent": 1.0, "mre_phase_percent": 2.0}
-    notes = [
-        "These tests do not determine C1 of law.json; there it has usual values of published asphalt concretes: C1 49.",
-        "x",
-    ]
-    (told,) = answer(law_misses=misses, scatter={"from_replicates": True}, notes=notes)["Law"]
+    said = "These tests do not determine C1 of law.json."
+    (told,) = answer(law_misses=misses, scatter={"from_replicates": True}, undetermined=said)["Law"]
     assert told.endswith(" These tests do not determine C1 of law.json.")
 
 

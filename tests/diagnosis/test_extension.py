@@ -9,7 +9,7 @@ import pytest
 
 from asphalt_nscd.bending.rig import read_rig
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY
-from asphalt_nscd.diagnosis.simulation.extension import Sample, extend, prior_notes
+from asphalt_nscd.diagnosis.simulation.extension import Sample, extend, left_to_priors
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
 from asphalt_nscd.rheology.fitting import Fit
@@ -106,13 +106,16 @@ def test_a_file_that_is_no_diagnosis_is_refused(folder):
 
 def test_what_the_tests_do_not_determine_is_said():
     fit = Fit(LAW, None, 0.0, 10)
-    assert prior_notes(fit) == []
-    assert prior_notes(replace(fit, from_prior=("glassy_modulus",))) == [
-        "These tests do not determine the glassy modulus of law.json; there it has usual values of published asphalt "
-        "concretes: glassy modulus 42 GPa."
-    ]
-    (said,) = prior_notes(replace(fit, from_prior=("static_modulus", "c1", "c2")))
+    assert left_to_priors(fit) == ("", [])
+    assert left_to_priors(replace(fit, from_prior=("glassy_modulus",))) == (
+        "These tests do not determine the glassy modulus of law.json.",
+        [
+            "These tests do not determine the glassy modulus of law.json; there it has usual values of published "
+            "asphalt concretes: glassy modulus 42 GPa."
+        ],
+    )
+    _, (said,) = left_to_priors(replace(fit, from_prior=("static_modulus", "c1", "c2")))
     assert "do not determine the static modulus, C1 and C2 of law.json" in said
     assert said.endswith("asphalt concretes: static modulus 1 MPa, C1 12, C2 80 K.")
     long = replace(fit, law=replace(LAW, beta=506.0), from_prior=("beta",))
-    assert "beta 510." in prior_notes(long)[0]
+    assert "beta 510." in left_to_priors(long)[1][0]

@@ -145,7 +145,9 @@ def conclude(
         content["laws"] = extension.compared(diagnosis, fit, ~doubtful)
         at = [] if highest is None else [f"the tests at {highest.frequency:g} Hz"]
         content["notes"] += extension.law_notes(diagnosis, fit.law, [*levels.places(*odd), *at])
-        content["notes"] += extension.prior_notes(fit)
+        said, notes = extension.left_to_priors(fit)
+        content["notes"] += notes
+        content |= {"undetermined": said} if said else {}
     progress("Diagnose", 3, STEPS)
     notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:

@@ -23,7 +23,6 @@ from asphalt_nscd.measurements.tables import averages, the_only
 
 SCHEMA_VERSION = 3
 DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")
-UNDETERMINED = "These tests do not determine"  # begins the note on parameters of law.json that follow priors
 CONFINED_TO = {cause.name: cause.confined_to for cause in CATALOGUE}
 UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}  # of amplitudes
 BEFORE_AFTER = ("before", "after")
@@ -135,10 +134,19 @@ def with_interval(value: float, half: float) -> str:
     >>> with_interval(0.739, 1.08), with_interval(3.0, 0.392), with_interval(-227.4, 268.0)
     ('0.7 +- 1.1', '3.00 +- 0.39', '-230 +- 270')
     """
+    return f"{as_sure(value, half)} +- {as_sure(half, half) if half > 0.0 else 0}"
+
+
+def as_sure(value: float, half: float) -> str:
+    """A value to the second digit of half of its interval.
+
+    >>> as_sure(0.739, 1.08), as_sure(-227.4, 268.0), as_sure(0.739, 0.0)
+    ('0.7', '-230', '0.739')
+    """
     if not half > 0.0:
-        return f"{three_digits(value)} +- 0"
+        return three_digits(value)
     digits = 1 - int(f"{half:.1e}".partition("e")[2])
-    return " +- ".join(f"{round(one, digits) + 0.0:.{max(digits, 0)}f}" for one in (value, half))
+    return f"{round(value, digits) + 0.0:.{max(digits, 0)}f}"
 
 
 def widening(spread: float) -> float:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
+
+ON_PAGE = "ASPHALT_NSCD_ON_PAGE"  # `serve` tells its jobs, whose user has menus and no options
 
 
 def specimen_named(name: str) -> str:
@@ -30,3 +33,8 @@ def joined(words: Sequence[str], last: str = "and") -> str:
     ('a, b and c', 'a or b', 'a')
     """
     return f" {last} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
+
+
+def choice(option: str, menu: str) -> str:
+    """What a user does to choose: give an option of the command line, or take what the page has in its place."""
+    return menu if os.environ.get(ON_PAGE) else option

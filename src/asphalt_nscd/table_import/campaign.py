@@ -11,7 +11,7 @@ import pandas as pd
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
-from asphalt_nscd.files.words import counted
+from asphalt_nscd.files.words import choice, counted
 from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.kinds import UNKNOWN
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
@@ -40,6 +40,7 @@ SAVE_AS = "save it as CSV or XLSX."
 TABLES = (".csv", ".tsv", *TEXTS, ".xlsx", ".xlsm")
 MOST_FILES = 500
 _MEASURED = ("temperature_C", "nominal_temperature_C", "E_MPa", "phase_deg")
+IN_THE_MENU = "choose it in the menu"
 
 
 def read_campaign(
@@ -86,9 +87,8 @@ def read_campaign(
 def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: list[str]) -> str:
     """The kind of test that files say: machines that export, forces of a bending test, or the name of its scheme."""
     if any(part.exported for part in parts):
-        notes.append(
-            "a machine export (AMPT, UTM) is taken as an axial test; for bending say --measured-in bending"
-        )
+        way = choice("say --measured-in bending", IN_THE_MENU)
+        notes.append(f"a machine export (AMPT, UTM) is taken as an axial test; for bending {way}")
         return "tension-compression"
     if form in ("peaks", "records"):
         notes.append("forces and displacements are taken as of two-point bending")
@@ -96,9 +96,11 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
     found = {kind for part in parts for kind in schemes_in(part.path)}
     if len(found) == 1:
         kind = found.pop()
-        notes.append(f"taken as {kind}, for the file names such a test; else say --measured-in")
+        way = choice("say --measured-in", IN_THE_MENU)
+        notes.append(f"taken as {kind}, for the file names such a test; else {way}")
         return kind
-    notes.append("which test gave the moduli is not said; say --measured-in bending or tension-compression")
+    way = choice("say --measured-in bending or tension-compression", IN_THE_MENU)
+    notes.append(f"which test gave the moduli is not said; {way}")
     # No guess: taken for bending, an AMPT's cylinder was told of guide friction and of a loose clamp.
     return UNKNOWN
 
@@ -175,9 +177,8 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
         skipped += [SkippedFile(part.source, "means of other sheets") for part in parts if part.means]
         parts = [part for part in parts if not part.means]
     read = list(dict.fromkeys(part.source.rpartition(", sheet ")[2] for part in parts))
-    notes.append(
-        f"{counted(len(read), 'sheet')} of {path.name} read: {', '.join(read)}; --sheet takes one alone"
-    )
+    way = choice("; --sheet takes one alone", "")
+    notes.append(f"{counted(len(read), 'sheet')} of {path.name} read: {', '.join(read)}{way}")
     notes += [f"skipped {listed([one])}" for one in skipped]
     return [replace(part, path=path) for part in parts]
 
@@ -215,8 +216,9 @@ def _table(
     if name is None:
         return cells
     if of_other_sheets(name, cells):
+        way = choice("with --sheet", "alone")
         raise NotTests(
-            f"{path}: its name says that it was computed of others; give it with --sheet if it holds tests."
+            f"{path}: its name says that it was computed of others; give it {way} if it holds tests."
         )
     # Units first: a column that the name of the sheet fills would be a number in their line.
     return told_by_sheet(with_units(cells), name, chosen)

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import choice
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.decimals import number
 from asphalt_nscd.table_import.heading import without_condition
@@ -25,6 +26,16 @@ def as_written(name: str, column: Column) -> str:
     return f"{name.rpartition('_')[0]}_{column.unit}" if column.unit else name
 
 
+def by_column(wanted: str, name: str) -> str:
+    """How a user says that the column of a name holds what is wanted."""
+    return choice(f'with --column {wanted}="{name}"', "in its menu below")
+
+
+def _named(wanted: str) -> str:
+    """Begins what is wrong with a choice of a column."""
+    return choice(f"--column {wanted}: ", "")
+
+
 def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
     """The columns that the user named with --column, by our names; `chosen` has them by what they hold."""
     found: dict[str, list[Place]] = {}
@@ -32,9 +43,7 @@ def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Pl
         column = recognise(wanted)
         if column is None or column.unit is None:
             names = ", ".join(MEASURED)
-            raise InputError(
-                f"--column {wanted}: not known; give one of {names}, with the unit of your column."
-            )
+            raise InputError(f"{_named(wanted)}not known; give one of {names}, with the unit of your column.")
         # A line of units below the names was put behind them.
         places = [n for n, header in enumerate(cells.header) if header == name] or [
             n
@@ -45,7 +54,7 @@ def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Pl
             raise InputError(f"{cells.path}: no column {name!r}; its columns are {', '.join(cells.header)}.")
         if kind := derived(cells.header[places[0]]):
             raise InputError(
-                f"{cells.path}: --column {wanted}: column {name!r} holds "
+                f"{cells.path}: {_named(wanted)}column {name!r} holds "
                 + ("logarithms" if kind == "logarithm" else "values reduced to one temperature")
                 + "; give a column of what was measured."
             )
@@ -63,14 +72,15 @@ def _require_unit(cells: Cells, place: int, wanted: str, column: Column) -> None
         return
     if told not in units:
         raise InputError(
-            f"{cells.path}: --column {wanted}: column {name!r} is in {told}, which is no unit of {column.quantity}; "
+            f"{cells.path}: {_named(wanted)}column {name!r} is in {told}, which is no unit of {column.quantity}; "
             "name another column, or correct its name."
         )
     if units[told] != (column.factor, column.offset):
         own = f"{column.quantity.rpartition('_')[0]}_{told}"
+        way = choice(f'write --column {own}="{name}"', "choose so in its menu below")
         raise InputError(
-            f'{cells.path}: --column {wanted}: column {name!r} says {told}; write --column {own}="{name}", which is '
-            "then converted, or correct the name of the column."
+            f"{cells.path}: {_named(wanted)}column {name!r} says {told}; {way}, which is then converted, or correct "
+            "the name of the column."
         )
 
 
@@ -149,8 +159,8 @@ def _contradiction(
             f"other with a column specimen ({differ})."
         )
     return InputError(
-        f"{cells.path}: columns {one!r} and {other!r} may each be {name}; say which with "
-        f'--column {as_written(name, column)}="{one}", or remove the others ({differ}).'
+        f"{cells.path}: columns {one!r} and {other!r} may each be {name}; say which "
+        f"{by_column(as_written(name, column), one)}, or remove the others ({differ})."
     )
 
 

@@ -11,7 +11,7 @@ from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, is_reduced
 from asphalt_nscd.table_import.cells import Cells, NotTests
-from asphalt_nscd.table_import.columns import Place, as_written, chosen_columns, one_of
+from asphalt_nscd.table_import.columns import Place, as_written, by_column, chosen_columns, one_of
 from asphalt_nscd.table_import.decimals import decimal_mark, number, with_point
 from asphalt_nscd.table_import.header_lines import with_units
 from asphalt_nscd.table_import.heading import known, read_heading
@@ -171,7 +171,7 @@ def _the_mix(cells: Cells, kept: Mapping[str, Place]) -> str:
         raise InputError(
             f"{cells.path}: column {cells.header[place]!r} holds {len(mixes)} mixes ({named}), and a diagnosis is of "
             "one mix: save the rows of each mix as a file of its own and give one of them. If these are specimens of "
-            f'one mix, say so with --column specimen="{cells.header[place]}".'
+            f"one mix, say so {by_column('specimen', cells.header[place])}."
         )
     return mixes[0]
 
@@ -191,7 +191,7 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
             place, column = columns[angle][0]
             raise InputError(
                 f"{cells.path}: column {cells.header[place]!r} does not say whose phase it is; if it is that of "
-                f'{of}, say so with --column {as_written(wanted, column)}="{cells.header[place]}".'
+                f"{of}, say so {by_column(as_written(wanted, column), cells.header[place])}."
             )
     _require_plain(cells, missing["moduli"])
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
@@ -201,7 +201,7 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
     raise (NotTests if nothing else InputError)(
         f"{cells.path}: no {wanted} (found: {named}); write names with units, or name a column of "
-        f'yours with --column {missing[form][0]}="its name".'
+        f"yours {by_column(missing[form][0], 'its name')}."
     )
 
 
@@ -306,6 +306,6 @@ def _specimens(cells: Cells, values: dict[str, list[str]]) -> str:
         if earlier != line:
             raise InputError(
                 f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens "
-                'apart; add a column specimen or replicate, or say which is one, with --column specimen="its name".'
+                f"apart; add a column specimen or replicate, or say which is one, {by_column('specimen', 'its name')}."
             )
     return "no column of specimens, so all tests are taken as of one specimen"

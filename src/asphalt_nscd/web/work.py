@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import ON_PAGE
 
 if TYPE_CHECKING:
     from asphalt_nscd.table_import.cells import Cells
@@ -25,16 +26,6 @@ SECONDS_TO_DIAGNOSE = 900.0
 ROWS_SHOWN = 6
 TOO_LONG = "this took too long; give the table of results of one campaign alone."
 BROKEN = "this could not be done, and the fault is ours; the terminal of `asphalt-nscd serve` says where."
-
-# What sentences say of options, and where the page has them.
-_MENUS = (
-    (r'with --column \S+="[^"]*"', "in its menu below"),
-    (r'write --column \S+="[^"]*"', "choose so in its menu below"),
-    (r"--column \S+: ", ""),
-    (r"say --measured-in(?: bending or tension-compression| bending)?", "choose it in the menu"),
-    (r"; --sheet takes one alone", ""),
-    (r"give it with --sheet", "give it alone"),
-)
 
 
 @dataclass(frozen=True)
@@ -106,6 +97,7 @@ def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, outpu
     # Before numpy is loaded, which looks at them once.
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ[name] = "1"
+    os.environ[ON_PAGE] = "1"
     if sys.platform == "linux":
         import resource
 
@@ -206,12 +198,10 @@ def _not_said(quantity: str) -> str:
 
 
 def _for_the_page(text: str, paths: Sequence[Path]) -> str:
-    """A sentence with the names of the files alone, and with menus for options of the command line."""
+    """A sentence with the names of the files alone."""
     for path in paths:
         text = text.replace(str(path), path.name)
         text = text.replace(f"{path.parent}{os.sep}", "")
-    for option, menu in _MENUS:
-        text = re.sub(option, menu, text)
     return text
 
 

@@ -15,6 +15,7 @@ from asphalt_nscd.files.words import counted, joined, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 
 Orders = list[dict[str, Any]]
+MANY = 4  # frequencies from which only the ends are told
 
 
 def gauges(done: Observations, costs: Costs) -> Orders:
@@ -117,6 +118,7 @@ def content(
     names, at, frequencies = tests
     return {
         "text": f"{hours:.1f} h: {act}.",
+        "act": act,
         "purpose": why[0],
         "why": why[1],
         "hours": round(hours, 2),
@@ -139,6 +141,6 @@ def named(specimens: Sequence[str]) -> str:
 
 def band(f: Sequence[float]) -> str:
     """Frequencies [Hz], ascending, in words: `1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`."""
-    if len(f) < 4:
+    if len(f) < MANY:
         return f"{joined([f'{x:g}' for x in f])} Hz"
     return f"{f[0]:g} to {f[-1]:g} Hz ({len(f)} frequencies)"

@@ -13,6 +13,7 @@ from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.files.csvinput import Limits, Table, read_csv
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import choice
 from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures, with_sweeps_apart
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, PICKED, is_reduced, reduced_frame
@@ -79,9 +80,10 @@ def read_observations(
     by_force = bool({"F0_N", "record"} & set(table.columns))
     test_type = "bending" if campaign is None else campaign.test_type
     if by_force and test_type != "bending":
+        way = choice("say --measured-in bending", "choose it in the menu")
         raise InputError(
             f"{path}: forces and displacements are reduced by Eq. (1) of two-point bending; give the moduli of a "
-            f"{test_type} test, or say --measured-in bending."
+            f"{test_type} test, or {way}."
         )
     if reduced:
         table = _without(table, PEAKS)

@@ -30,7 +30,7 @@ from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.words.order_words import Context, Open, Order, act, purpose, reasons
 from asphalt_nscd.diagnosis.words.sentences import an, typed
 from asphalt_nscd.diagnosis.words.unexplained import size_left
-from asphalt_nscd.diagnosis.written import shown, three_digits, widening, with_interval
+from asphalt_nscd.diagnosis.written import as_sure, shown, three_digits, widening
 from asphalt_nscd.files.words import joined, specimen_named
 
 MOST = 5
@@ -41,10 +41,10 @@ KEPT = (SURVIVES + Z_95) ** 2
 # With 2 ln of the Bayes factor scattering by 2 d about d^2: d^2 - 1.645 * 2 d = 6 at d^2 = 21.
 TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
 PRESENT = 0.1  # chance that a cause nobody has seen is there
-PLAIN = {  # whose size alone says little
-    "secondary_process": "a second peak of the loss modulus (secondary process) of {}",
-    "guide_friction": "friction in the guide (a loss modulus larger by {})",
-    "strain_softening": "a softening with strain (|E*| lower by {} at the usual strain)",
+PLAIN = {  # whose size alone says little: what it is, and the rest of it with its size
+    "secondary_process": ("a second peak of the loss modulus", "(secondary process) of {}"),
+    "guide_friction": ("friction in the guide", "(a loss modulus larger by {})"),
+    "strain_softening": ("a softening with strain", "(|E*| lower by {} at the usual strain)"),
 }
 REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
 
@@ -151,7 +151,8 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         chance = PRESENT / places[other.cause.name]
         question = Question(j, REACH / spread, active, FOUND, everything, chance)
         hidden = max(float(question.strength(known)) - _by_limit(diagnosis, other), 0.0)
-        found.append(Open("reach", question, *_sized(other, REACH), candidate=other, hidden=hidden))
+        about, size, short = _sized(other, REACH)
+        found.append(Open("reach", question, about, size, other, hidden=hidden, short=short))
     return found
 
 
@@ -220,7 +221,7 @@ def _on_metal(model: Possible, k: int, amplitude: float, share: float) -> str:
     if abs(effect[at].imag) > abs(effect[at].real):
         value, unit = float(np.degrees(effect[at].imag)), "deg of phase"
     half = max(share * abs(value), 10.0 ** np.floor(np.log10(abs(value))))
-    size = f"{with_interval(value, half).partition(' ')[0]} {unit}"
+    size = f"{as_sure(value, half)} {unit}"
     every = most.size == effect.size > 1
     return f"{size} at {'every frequency' if every else f'{model.metal_frequencies[at]:g} Hz'}"
 
@@ -237,9 +238,12 @@ def words_of(candidate: Candidate) -> str:
     return f"{words} of {place}" if isinstance(place, str) else f"{words} at {place:g} degC"
 
 
-def _sized(candidate: Candidate, typical: float) -> tuple[str, str]:
-    """A cause of so many typical sizes in words, and that size."""
+def _sized(candidate: Candidate, typical: float) -> tuple[str, str, str]:
+    """A cause of so many typical sizes in words, that size, and the cause in few words where there are fewer."""
     name, first = candidate.cause.name, candidate.cause.parameters[0]
     value, unit = shown(typical * first.typical, first.unit)
     size = f"{three_digits(value)} {typed(unit)}"
-    return PLAIN.get(name, f"{an(name.replace('_', ' '))} of {{}}").format(size), size
+    if name not in PLAIN:
+        return f"{an(name.replace('_', ' '))} of {size}", size, ""
+    short, rest = PLAIN[name]
+    return f"{short} {rest.format(size)}", size, short

@@ -24,7 +24,6 @@ from asphalt_nscd.diagnosis.observed.reading import read_observations
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.simulation.gain import errors
-from asphalt_nscd.diagnosis.written import UNDETERMINED
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.files.words import joined
@@ -123,8 +122,8 @@ def law_misses(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> 
     return {name: float(np.mean(list(by_temperature.values()))) for name, by_temperature in found.items()}
 
 
-def prior_notes(fit: Fit) -> list[str]:
-    """What the tests do not determine of the law, in a sentence; none if they determine all."""
+def left_to_priors(fit: Fit) -> tuple[str, list[str]]:
+    """What the tests do not determine of the law, in a sentence, and the note with its values; empty if nothing."""
     names, sizes = [], []
     for name in fit.from_prior:
         term, unit, factor = TERMS.get(name, (name, "", 1.0))
@@ -133,10 +132,10 @@ def prior_notes(fit: Fit) -> list[str]:
             f"{term.removeprefix('the ')} {float(f'{factor * parameters(fit.law)[name]:.2g}'):g}{unit}"
         )
     if not names:
-        return []
-    return [
-        f"{UNDETERMINED} {joined(names)} of law.json; there it has usual values of published asphalt "
-        f"concretes: {', '.join(sizes)}."
+        return "", []
+    said = f"These tests do not determine {joined(names)} of law.json"
+    return f"{said}.", [
+        f"{said}; there it has usual values of published asphalt concretes: {', '.join(sizes)}."
     ]
 
 

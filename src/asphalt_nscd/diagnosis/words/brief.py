@@ -7,18 +7,17 @@ page.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from functools import partial
 from textwrap import wrap
 
 from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.next_tests.fixed_orders import band
+from asphalt_nscd.diagnosis.next_tests.fixed_orders import MANY, band
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words import sentences, unexplained, verdict
 from asphalt_nscd.diagnosis.words.sentences import Content, cause_words, doubtful, not_used, odd
-from asphalt_nscd.diagnosis.written import UNDETERMINED, with_interval
+from asphalt_nscd.diagnosis.written import with_interval
 from asphalt_nscd.files.words import counted, joined, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 from asphalt_nscd.measurements.kinds import UNKNOWN
@@ -378,7 +377,7 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
         said.append(f"It was fitted to the{' corrected' * corrected} tests{without}{among}.")
     elif doubtful:
         said.append(f"It was fitted to all tests{but}, doubtful ones too.")
-    said += [f"{note.split(';')[0]}." for note in content["notes"] if note.startswith(UNDETERMINED)]
+    said += filter(None, [content.get("undetermined")])
     return [" ".join([*said, *warning])]
 
 
@@ -401,9 +400,10 @@ def _next(content: Content) -> list[str]:
     orders = content.get("instructions", {"orders": []})["orders"]
     said = []
     for number, one in enumerate(orders, 1):
-        hours, act = one["text"].removesuffix(".").split(": ", 1)
-        act = re.sub(r"[\d.]+ to [\d.]+ Hz \(\d+ frequencies\)", "all frequencies", act)
+        act, tested = one["act"], one["frequencies_Hz"]
+        if len(tested) >= MANY:
+            act = act.replace(band(tested), "all frequencies")
         why = f", {one['purpose']}" if one.get("purpose") else ""
-        cost = f" ({hours})" if one["hours"] > 0.0 else ""
+        cost = f" ({one['hours']:.1f} h)" if one["hours"] > 0.0 else ""
         said.append(f"{number}. {_sentence(f'{act}{why}{cost}')}")
     return said

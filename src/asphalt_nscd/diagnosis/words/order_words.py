@@ -32,8 +32,9 @@ class Open:
     """An open question, and how a reader is told what the tests would do for it.
 
     `kind`: kept, metal, apart, repeat, level, linear or reach; `about` and `other`: what it is about and held against,
-    in words; `alike`: `candidate` and `rival` fitted the tests equally well. `hidden`: strength that the tests done
-    have less than the linear model says, because the law follows a large effect further than a small one.
+    in words; `short`: fewer words for `about`. `alike`: `candidate` and `rival` fitted the tests equally well.
+    `hidden`: strength that the tests done have less than the linear model says, because the law follows a large effect
+    further than a small one.
     """
 
     kind: str
@@ -45,6 +46,7 @@ class Open:
     departure: Departure | None = None
     alike: bool = False
     hidden: float = 0.0
+    short: str = ""
 
     def at(self, order: Order) -> bool:
         """Whether an order tests the departure that a question is about: its specimen, isotherm and frequency."""
@@ -144,7 +146,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
                 return f"to see an error of {one.other} in the temperature of any isotherm"
             alike = [other.place for other in helped if (other.kind, other.about) == (kind, one.about)]
             other = an(one.other) if kind == "apart" else one.other
-            return words.format(about=one.about.split(" (")[0], other=other, places=_places(alike))
+            return words.format(about=one.short or one.about, other=other, places=_places(alike))
     return ""
 
 
