@@ -31,11 +31,15 @@ PUBLISHED = {
         "forecast",
         [
             *(f"mixes/{name}.csv" for name in ("overall", "errors", "bands")),
-            *(f"{name}.csv" for name in ("voids", "paper_mix", "wrong_recipes")),
+            *(f"{name}.csv" for name in ("voids", "paper_mix", "wrong_recipes", "blind", "blind_mixes", "blind_overall")),
             "figures/fig_forecast.png",
             "provenance.json",
         ],
-        {"forecast": "mixes/overall.csv", "wrong_recipes": "wrong_recipes.csv"},
+        {
+            "forecast": "mixes/overall.csv",
+            "wrong_recipes": "wrong_recipes.csv",
+            "forecast_blind": "blind_overall.csv",
+        },
     ),
     "publish_verification": Published(
         "verification",
