@@ -19,6 +19,7 @@ from asphalt_nscd.specimen.trimming import Specimen
 PARTS = "kinetic", "springs", "dashpots", "impact", "friction", "fracture", "numerical"
 """Of the account, what the energy set free becomes."""
 
+
 def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> World:
     """The specimen over the floor, at rest, its bonds sawn and its bonds to the plates left out."""
     network, n = specimen.network, specimen.radius.size
