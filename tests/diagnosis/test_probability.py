@@ -10,7 +10,7 @@ from scipy.stats import cauchy
 from test_diagnose import EFFECTS, table
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.criteria import EXPECTED, HALF_FROM, NAMED, SUREST
+from asphalt_nscd.diagnosis.criteria import HALF_FROM, NAMED, SUREST
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.model.probability import log_odds, shares, stated
 from asphalt_nscd.diagnosis.record.report import as_json
@@ -25,7 +25,7 @@ CAUSES = {cause.name: cause for cause in CATALOGUE}
 )
 def test_odds_are_those_of_the_integral_over_all_sizes(name, z):
     observed = table(0)
-    cause, expected = CAUSES[name], EXPECTED[name]
+    cause, expected = CAUSES[name], CAUSES[name].expected
     error = 0.05 * expected.size
     best = z * error
     low = 0.0 if cause.parameters[0].low >= 0.0 else -np.inf
@@ -46,9 +46,7 @@ def test_odds_are_those_of_the_integral_over_all_sizes(name, z):
 def test_a_size_that_is_not_known_at_all_tells_nothing():
     cause = CAUSES["phase_offset"]
     for error in (10.0, 1e6):
-        assert log_odds(Candidate(cause, None, (0.0,)), table(0), 0.0, error) < np.log(
-            EXPECTED[cause.name].chance
-        )
+        assert log_odds(Candidate(cause, None, (0.0,)), table(0), 0.0, error) < np.log(cause.expected.chance)
 
 
 def test_shares_leave_room_for_none_and_for_rivals():

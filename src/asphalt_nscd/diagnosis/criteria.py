@@ -2,9 +2,8 @@
 
 What tunes one computation alone stands beside it in its own module: most in `screening`, as what makes a test suspect.
 
-Chances and sizes of causes are judgements, to a factor of two or so, of what happens on such benches; no survey of
-laboratories is at hand. A factor of two in a chance moves the size that is named by some 5 %. "Drawn tables" are those
-of `trials/blind` and `trials/attack`; docs/trust.md has what they give.
+Each cause carries its own chance and usual size (`causes/`). "Drawn tables" are those of `trials/blind` and
+`trials/attack`; docs/trust.md has what they give.
 """
 
 from __future__ import annotations
@@ -12,6 +11,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+
+from asphalt_nscd.diagnosis.causes._cause import Expected
 
 # Probability by the model from which a cause is established, and from which it, or one that fits as well, is told as
 # possible.
@@ -50,29 +51,6 @@ HIDES = 1.0  # the same, from which it may be the shape of a cause that has one
 NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
 
 
-@dataclass(frozen=True)
-class Expected:
-    """The `chance` that a campaign has a cause at all, and its usual `size` in the unit of its amplitude."""
-
-    chance: float
-    size: float
-
-
-EXPECTED = {
-    "phase_offset": Expected(0.06, 1.2),  # deg
-    "channel_delay": Expected(0.06, 2.5e-4),  # s
-    "moving_mass": Expected(0.04, 0.25),  # kg
-    "guide_friction": Expected(0.03, 1.2e8),  # Pa
-    "guide_stiffness": Expected(0.03, 1.2e8),  # Pa
-    "loose_clamp": Expected(0.02, 8e-12),  # 1/Pa
-    "specimen_geometry": Expected(0.06, 0.25),
-    "temperature_bias": Expected(0.06, 2.0),  # K
-    "self_heating": Expected(0.03, 1.5),  # K
-    "strain_softening": Expected(0.04, 0.12),
-    "damage": Expected(0.04, 0.12),
-    "secondary_process": Expected(0.02, 2e9),  # Pa
-    "solver": Expected(0.5, 1.0),  # of a simulated campaign
-}
 # Faults of one place (`diagnosis.search.confined`), which are told and not named; the chance is that of all places.
 CONFINED = {
     "offset of one specimen": Expected(0.1, 1.2),  # deg; each has gauges of its own

@@ -18,7 +18,7 @@ from asphalt_nscd.diagnosis.criteria import CONFIDENCE, WIDE_SPREAD
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
-from asphalt_nscd.files.words import specimen_named
+from asphalt_nscd.files.words import specimen_named, three_digits
 from asphalt_nscd.measurements.tables import averages, the_only
 
 SCHEMA_VERSION = 3
@@ -121,11 +121,6 @@ def shown(value: float, unit: str) -> tuple[float, str]:
     """A value and its unit as people use them for its size: 2.9e-5, "s" -> 0.029, "ms"."""
     factor, name = _SHOWN.get(unit, (1.0, unit))
     return factor * value, name
-
-
-def three_digits(value: float) -> str:
-    """A number in three digits: 1553.2 -> "1550", 0.02861 -> "0.0286"."""
-    return f"{float(f'{value:.3g}'):.10g}"
 
 
 def with_interval(value: float, half: float) -> str:

@@ -38,3 +38,8 @@ def joined(words: Sequence[str], last: str = "and") -> str:
 def choice(option: str, menu: str) -> str:
     """What a user does to choose: give an option of the command line, or take what the page has in its place."""
     return menu if os.environ.get(ON_PAGE) else option
+
+
+def three_digits(value: float) -> str:
+    """A number in three digits: 1553.2 -> "1550", 0.02861 -> "0.0286"."""
+    return f"{float(f'{value:.3g}'):.10g}"

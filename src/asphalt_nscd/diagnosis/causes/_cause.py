@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
+from asphalt_nscd.files.words import three_digits
 from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
 Place = str | float | None
@@ -30,6 +31,24 @@ class Parameter:
     typical: float
 
 
+@dataclass(frozen=True)
+class Expected:
+    """The `chance` that a campaign has a cause at all, and its usual `size` in the unit of its amplitude.
+
+    Both are judgements, to a factor of two or so, of what happens on such benches; no survey of laboratories is at
+    hand. A factor of two in a chance moves the size that is named by some 5 %.
+    """
+
+    chance: float
+    size: float
+
+
+def less(value: float, unit: str) -> str:
+    """What takes a value off, in words: "subtract 1.2 deg from"."""
+    way = ("subtract", "from") if value > 0.0 else ("add", "to")
+    return f"{way[0]} {three_digits(abs(value))} {unit} {way[1]}"
+
+
 class Cause(ABC):
     """One physical cause. The first parameter is its amplitude: at zero the cause is absent.
 
@@ -38,6 +57,10 @@ class Cause(ABC):
     shows_in: a design in which it shows, where one that could have shown it does not.
     confined_to: what it sits at, one "specimen" or one isotherm ("temperature_C"); empty where it reaches all tests.
     benches: test types (`Observations.test_type`) whose apparatus can have it.
+    unseen: what it is called where its detection limit is told to everybody, as of the commonest faults.
+    plain: what it is, and the rest of it with its size, where the size alone says little.
+    alike: what never tells it from another explanation, as two names; empty where these tests may.
+    followed: whether a law fitted without it follows it, so that only a fit with it decides.
     """
 
     name: ClassVar[str]
@@ -50,6 +73,11 @@ class Cause(ABC):
     shows_in: ClassVar[str] = "other tests: in these, the master curve can bend to hide it"
     confined_to: ClassVar[str] = ""
     benches: ClassVar[tuple[str, ...]] = tuple(TEST_TYPES)
+    expected: ClassVar[Expected]
+    unseen: ClassVar[str] = ""
+    plain: ClassVar[tuple[str, str] | None] = None
+    alike: ClassVar[tuple[str, str] | None] = None
+    followed: ClassVar[bool] = False
 
     @property
     def one_sided(self) -> bool:
@@ -89,6 +117,10 @@ class Cause(ABC):
 
     def impossible(self, values: Vector, observed: Observations) -> str:
         """Say why these tests cannot have a cause of this size; empty where they can."""
+        return ""
+
+    def correction(self, value: float, place: Place) -> str:
+        """What to do to the tests to be rid of it, where one number does; empty elsewhere. `value` of its amplitude."""
         return ""
 
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:

@@ -1,6 +1,15 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import (
+    CHANNEL,
+    Cause,
+    Complex,
+    Expected,
+    Parameter,
+    Place,
+    Vector,
+    less,
+)
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -11,6 +20,8 @@ class ChannelDelay(Cause):
     stage = CHANNEL
     # Up to 20 ms: where the search ended at 5 ms a larger one had no name, and what it left made other limits absurd.
     parameters = (Parameter("delay", "s", -2e-2, 2e-2, 1e-4),)
+    expected = Expected(0.06, 2.5e-4)  # s
+    unseen = "A delay of all tests"
     sentence = "the displacement channel lags the force channel by a fixed time"
     signs = (
         "The displacement is recorded after the force.",
@@ -22,6 +33,10 @@ class ChannelDelay(Cause):
     def shows(self, observed: Observations) -> bool:
         """Whether two frequencies or more were tested: at one, a delay is an angle like any other."""
         return observed.frequencies.size > 1
+
+    def correction(self, value: float, place: Place) -> str:
+        """The phase turned back by 360 degrees times the frequency times the delay `value` [s]."""
+        return f"{less(360.0 * value, 'deg per Hz')} the phase"
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """Turn the recorded F/z by omega tau; the inertia that the reduction adds by Eq. (1) is not turned.

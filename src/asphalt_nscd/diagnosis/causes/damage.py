@@ -1,6 +1,6 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Expected, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -10,6 +10,7 @@ class Damage(Cause):
     name = "damage"
     stage = SPECIMEN
     parameters = (Parameter("loss_at_last_test", "1", 0.0, 0.8, 0.02),)
+    expected = Expected(0.04, 0.12)
     sentence = "the specimens lose stiffness in the course of the tests"
     confirmed_by = "repeating the first test at the end"
     needs = "the order of the tests (column order or cycles)"

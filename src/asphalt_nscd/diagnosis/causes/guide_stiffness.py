@@ -1,4 +1,4 @@
-from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Expected, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -12,6 +12,9 @@ class GuideStiffness(Cause):
         "tests so warm that the mix comes near its static modulus, or a test of the rig without a specimen"
     )
     parameters = (Parameter("modulus", "Pa", 0.0, 5e9, 2e7),)
+    expected = Expected(0.03, 1.2e8)  # Pa
+    followed = True
+    alike = ("guide_stiffness", "static modulus of relaxation_spectrum")
     sentence = "a guide or cable acts as a spring in parallel with the specimen"
     confirmed_by = "a test of the rig without a specimen, or the modulus of the mix at long times"
     needs = "two-point bending and the static modulus of the mix (--static-modulus-mpa), since both add alike to |E*|"

@@ -1,6 +1,6 @@
 from collections.abc import Sequence
 
-from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Expected, Parameter, Place, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -15,6 +15,9 @@ class LooseClamp(Cause):
     stage = SPECIMEN
     benches = ("bending",)
     parameters = (Parameter("compliance", "1/Pa", 0.0, 1e-9, 5e-13),)
+    expected = Expected(0.02, 8e-12)  # 1/Pa
+    # 1/E + C is exactly another Burgers law, and without a static modulus another law of Huet and Sayegh.
+    alike = ("loose_clamp of all specimens", "relaxation_spectrum")
     sentence = "this specimen is held by a compliant clamp or glue joint"
     confirmed_by = "clamping the specimen again and repeating its coldest test"
     needs = "two-point bending and a second specimen to compare with"

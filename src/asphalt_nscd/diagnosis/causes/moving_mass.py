@@ -1,4 +1,4 @@
-from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Expected, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -15,6 +15,7 @@ class MovingMass(Cause):
     benches = ("bending",)
     needs = "two-point bending at several frequencies"
     parameters = (Parameter("mass", "kg", -2.0, 2.0, 0.02),)
+    expected = Expected(0.04, 0.25)  # kg
     sentence = "the mass moving with the head differs from the one used in the reduction"
     signs = (
         "The mass entered for the parts that move is too small.",

@@ -1,6 +1,15 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import CHANNEL, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import (
+    CHANNEL,
+    Cause,
+    Complex,
+    Expected,
+    Parameter,
+    Place,
+    Vector,
+    less,
+)
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -10,10 +19,16 @@ class PhaseOffset(Cause):
     name = "phase_offset"
     stage = CHANNEL
     parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
+    expected = Expected(0.06, 1.2)  # deg
+    unseen = "A common phase offset"
     sentence = "the measured phase is off by the same angle in every test"
     signs = ("The measured phases are too large.", "The measured phases are too small.")
     shows_in = "a test on a metal reference specimen: in these, the master curve can bend to hide it"
     confirmed_by = "a test on an elastic reference specimen of metal, which has no phase of its own"
+
+    def correction(self, value: float, place: Place) -> str:
+        """The phase less the offset `value` [deg]."""
+        return f"{less(value, 'deg')} the phase"
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """Turn the recorded F/z by one angle; the inertia that the reduction adds by Eq. (1) is not turned.

@@ -3,7 +3,7 @@ from itertools import product
 
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Expected, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.rheology.shift import GAS_CONSTANT, ZERO_CELSIUS
 
@@ -21,6 +21,8 @@ class SecondaryProcess(Cause):
         Parameter("activation_energy", "kJ/mol", 10.0, 120.0, 30.0),
         Parameter("exponent", "-", 0.3, 1.0, 0.2),
     )
+    expected = Expected(0.02, 2e9)  # Pa
+    plain = ("a second peak of the loss modulus", "(secondary process) of {}")
     sentence = "a second relaxation process, with a shift of its own, adds a loss bump"
     confirmed_by = "tests at more frequencies, or the loss peak of the binder"
     shows_in = "tests that a law fits; in these, what the law misses would pass for a second loss peak"

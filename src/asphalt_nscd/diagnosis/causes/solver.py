@@ -1,6 +1,6 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Expected, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -14,6 +14,7 @@ class Solver(Cause):
     name = "solver"
     stage = MATERIAL
     parameters = (Parameter("effect_of_time_step", "1", -20.0, 20.0, 1.0),)
+    expected = Expected(0.5, 1.0)  # of a simulated campaign
     sentence = "the time step of the simulation is too long"
     confirmed_by = "the same tests at half the time step"
     needs = "simulated tests (column time_step_s); in measurements there is no time step"

@@ -1,6 +1,6 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Expected, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -10,6 +10,9 @@ class StrainSoftening(Cause):
     name = "strain_softening"
     stage = MATERIAL
     parameters = (Parameter("loss_at_largest_amplitude", "1", 0.0, 0.8, 0.02),)
+    expected = Expected(0.04, 0.12)
+    unseen = "A softening with strain"
+    plain = ("a softening with strain", "(|E*| lower by {} at the usual strain)")
     sentence = "the modulus depends on the strain amplitude: the mix is outside its linear range"
     confirmed_by = "an amplitude sweep down to 20 microstrain"
     needs = "more than one amplitude (column amplitude_m)"

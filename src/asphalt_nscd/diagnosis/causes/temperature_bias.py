@@ -1,6 +1,15 @@
 from collections.abc import Sequence
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Complex, Parameter, Place, Vector
+from asphalt_nscd.diagnosis.causes._cause import (
+    MATERIAL,
+    Cause,
+    Complex,
+    Expected,
+    Parameter,
+    Place,
+    Vector,
+    three_digits,
+)
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -10,6 +19,9 @@ class TemperatureBias(Cause):
     name = "temperature_bias"
     stage = MATERIAL
     parameters = (Parameter("temperature_rise", "K", -8.0, 8.0, 0.3),)
+    expected = Expected(0.06, 2.0)  # K
+    unseen = "A temperature error at one isotherm"
+    alike = ("temperature_bias of all isotherms", "shift constants of relaxation_spectrum")
     sentence = "the specimens were not at the temperature stated for this isotherm"
     signs = ("The specimens were warmer than stated.", "The specimens were colder than stated.")
     confirmed_by = "a thermometer in a dummy specimen at this temperature"
@@ -24,6 +36,11 @@ class TemperatureBias(Cause):
     def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
         """The same rise of the specimens above the stated temperature for all tests of the isotherm [K]."""
         return values[0]
+
+    def correction(self, value: float, place: Place) -> str:
+        """Another temperature of the isotherm `place` [degC], `value` [K] away."""
+        assert isinstance(place, float | int)
+        return f"take {three_digits(place + value)} degC as their temperature"
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """Leave the modulus E* (n,) [Pa] as it is: what the temperature does to it is the law's."""

@@ -16,16 +16,18 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import expit, logit, logsumexp
 
-from asphalt_nscd.diagnosis.criteria import DOUBTED, EXPECTED, HALF_FROM, SUREST, Expected
+from asphalt_nscd.diagnosis.causes._cause import Expected
+from asphalt_nscd.diagnosis.criteria import DOUBTED, HALF_FROM, SUREST
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
 def log_odds(candidate: Candidate, observed: Observations, gain: float, std_error: float) -> float:
     """ln odds of a cause at its place over none; `gain` of -2 ln likelihood, other parameters fitted."""
-    expected = EXPECTED[candidate.cause.name]
     places = len(candidate.cause.places(observed))
-    return odds_of(expected, places, candidate.values[0], std_error, gain, candidate.cause.one_sided)
+    return odds_of(
+        candidate.cause.expected, places, candidate.values[0], std_error, gain, candidate.cause.one_sided
+    )
 
 
 def odds_of(

@@ -41,11 +41,6 @@ KEPT = (SURVIVES + Z_95) ** 2
 # With 2 ln of the Bayes factor scattering by 2 d about d^2: d^2 - 1.645 * 2 d = 6 at d^2 = 21.
 TOLD_APART = 21.0  # expected 2 ln of the Bayes factor, of which 6 are reached in 19 of 20 cases
 PRESENT = 0.1  # chance that a cause nobody has seen is there
-PLAIN = {  # whose size alone says little: what it is, and the rest of it with its size
-    "secondary_process": ("a second peak of the loss modulus", "(secondary process) of {}"),
-    "guide_friction": ("friction in the guide", "(a loss modulus larger by {})"),
-    "strain_softening": ("a softening with strain", "(|E*| lower by {} at the usual strain)"),
-}
 REACH = 3.0  # typical amplitudes, each an effect of a per cent or so, that should be seen
 
 
@@ -240,10 +235,10 @@ def words_of(candidate: Candidate) -> str:
 
 def _sized(candidate: Candidate, typical: float) -> tuple[str, str, str]:
     """A cause of so many typical sizes in words, that size, and the cause in few words where there are fewer."""
-    name, first = candidate.cause.name, candidate.cause.parameters[0]
+    cause, first = candidate.cause, candidate.cause.parameters[0]
     value, unit = shown(typical * first.typical, first.unit)
     size = f"{three_digits(value)} {typed(unit)}"
-    if name not in PLAIN:
-        return f"{an(name.replace('_', ' '))} of {size}", size, ""
-    short, rest = PLAIN[name]
+    if cause.plain is None:
+        return f"{an(cause.name.replace('_', ' '))} of {size}", size, ""
+    short, rest = cause.plain
     return f"{short} {rest.format(size)}", size, short

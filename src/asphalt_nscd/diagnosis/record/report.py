@@ -128,15 +128,13 @@ def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
     rivals = [(rung.candidate, *rung.rivals) for rung in diagnosis.ladder.rungs if rung.rivals]
     groups = (*rivals, *diagnosis.ladder.alike)
     out = [[name_at(*candidate.key) for candidate in group] for group in groups]
-    possible = {cause.name for cause in CATALOGUE if cause.on_bench(diagnosis.observed)}
-    # 1/E + C is exactly another Burgers law, and without a static modulus another law of Huet and Sayegh.
-    if "loose_clamp" in possible:
-        out.append(["loose_clamp of all specimens", "relaxation_spectrum"])
-    if "guide_stiffness" in possible - {name for name, _ in diagnosis.ladder.limits}:
-        out.append(["guide_stiffness", "static modulus of relaxation_spectrum"])
-    # A factor common to all is a scale of the modulus, a common error of temperature a change of WLF's constants.
-    out.append(["specimen_geometry of all specimens", "glassy modulus of relaxation_spectrum"])
-    out.append(["temperature_bias of all isotherms", "shift constants of relaxation_spectrum"])
+    possible = [cause for cause in CATALOGUE if cause.on_bench(diagnosis.observed)]
+    limited = {name for name, _ in diagnosis.ladder.limits}
+    out += [
+        list(cause.alike)
+        for cause in possible
+        if cause.alike and not (cause.followed and cause.name in limited)
+    ]
     return out
 
 

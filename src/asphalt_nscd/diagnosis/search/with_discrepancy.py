@@ -262,7 +262,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
     pointing = likelihood.directions(state.model, state.linear, d)
     # A law that was fitted without a spring has followed it and leaves little of its direction: a fit with the spring
     # decides. It may follow all of most others, as a shift may of an error of temperature.
-    fitted = [isinstance(c.place, str) or c.cause.name == "guide_stiffness" for c in candidates]
+    fitted = [isinstance(c.place, str) or c.cause.followed for c in candidates]
     least = np.where(fitted, FOLLOWED, ABSORBED)
     left, size = np.diag(pointing.own), (d**2).sum(axis=0)
     seen = np.flatnonzero(left > least * np.maximum(size, 1e-300))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words.sentences import Content, isotherms, more_than_scatter, odd, typed
 from asphalt_nscd.diagnosis.written import shown, three_digits
@@ -12,12 +13,6 @@ from asphalt_nscd.files.words import joined, specimen_named
 OF_WHAT_IS_LEFT = (
     "The four largest misfits of the free master curve, scatter subtracted. residuals.csv has each test."
 )
-UNSEEN = {  # the commonest faults, whose limits everybody is told
-    "phase_offset": "A common phase offset",
-    "channel_delay": "A delay of all tests",
-    "temperature_bias": "A temperature error at one isotherm",
-    "strain_softening": "A softening with strain",
-}
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
 LARGEST = 4  # parts of what stays unexplained that are listed
 
@@ -33,12 +28,12 @@ def unseen(content: Content) -> list[str]:
     named = {rung["cause"] for rung in content["ladder"]}
     never = [one["cause"] for one in content["not_testable"]]
     told = []
-    for cause, words in UNSEEN.items():
-        limit = content["detection_limits"].get(cause)
-        if limit and cause not in named:
-            told.append(f"{words} smaller than {_sizes(limit, content)}.")
-        elif cause in never:
-            told.append(f"{words}, of any size.")
+    for cause in CATALOGUE:
+        limit = content["detection_limits"].get(cause.name)
+        if cause.unseen and limit and cause.name not in named:
+            told.append(f"{cause.unseen} smaller than {_sizes(limit, content)}.")
+        elif cause.unseen and cause.name in never:
+            told.append(f"{cause.unseen}, of any size.")
     return told
 
 

@@ -56,20 +56,8 @@ def effects(content: Content) -> list[Content]:
 def correction(rung: Content) -> str:
     """What to do to the tests to be rid of a fault, where it is one number; empty where no one number corrects it."""
     value = next(iter(rung["parameters"].values()))["value"]
-    if rung["cause"] == "channel_delay":
-        return f"{_less(360.0 * value, 'deg per Hz')} the phase"
-    if rung["cause"] == "phase_offset":
-        return f"{_less(value, 'deg')} the phase"
-    if rung["cause"] == "specimen_geometry":
-        return f"if its dimensions prove wrong, divide its |E*| by {three_digits(1.0 + value)}"
-    if rung["cause"] == "temperature_bias":
-        return f"take {three_digits(rung['where'] + value)} degC as their temperature"
-    return ""
-
-
-def _less(value: float, unit: str) -> str:
-    way = ("subtract", "from") if value > 0.0 else ("add", "to")
-    return f"{way[0]} {three_digits(abs(value))} {unit} {way[1]}"
+    cause = next((one for one in CATALOGUE if one.name == rung["cause"]), None)
+    return "" if cause is None else cause.correction(value, rung["where"])
 
 
 def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
