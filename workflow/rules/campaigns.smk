@@ -26,6 +26,10 @@ class Made(NamedTuple):
         """By a program of benchmarks/."""
         return self.program.endswith(".py")
 
+    def job(self, name):
+        """Name of the log and the benchmark of a job of this rule."""
+        return f"{name}/{Path(self.output).stem}" if "{" in self.output else name
+
     def filled(self, wildcards, input, output, threads):
         """The command of a job. In `shell` it would be that of the last rule of a loop, for jobs read that when they run."""
         command = self.command if "--output " in self.command else f"{self.command} --output {{output.table}}"
@@ -34,9 +38,10 @@ class Made(NamedTuple):
 
 
 MEASURE = f"env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 {sys.executable} benchmarks"
+# Of each by its name:
 MADE = {}
-SHOWN = {}  # rule: step and what it shows, its file less the ending of a figure, {kind of data: files}
-RECORDED = {}  # rule of what made a campaign: its folder, and what is made before
+SHOWN = {}  # step and what it shows, its file less the ending of a figure, {kind of data: files}
+RECORDED = {}  # folder of a campaign, and what is made before what made it is written down
 
 
 include: "forecast.smk"  # a mix from its binder and recipe alone
@@ -50,11 +55,6 @@ if POURED:
     include: "rigs.smk"  # the specimens of all tests against the law
     include: "fatigue.smk"  # bonds that tire
     include: "fall.smk"  # bonds that turn, and pieces that fall
-
-
-def job_of(name, output):
-    """Name of the log and the benchmark of a job."""
-    return f"{name}/{Path(output).stem}" if "{" in output else name
 
 
 for name, made in MADE.items():
@@ -73,9 +73,9 @@ for name, made in MADE.items():
             **made.more,
             table=made.output,
         log:
-            f"results/{Path(made.output).parts[1]}/logs/{job_of(name, made.output)}.log",
+            f"results/{Path(made.output).parts[1]}/logs/{made.job(name)}.log",
         benchmark:
-            f"<results>/benchmarks/{job_of(name, made.output)}.tsv"
+            f"<results>/benchmarks/{made.job(name)}.tsv"
         conda:
             None if made.measured else ENVIRONMENT
         threads: made.threads

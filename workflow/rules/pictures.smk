@@ -72,9 +72,8 @@ rule first_page:
 rule rule_graph:
     """Which rule needs which, as a picture for docs/workflow.md."""
     input:
-        rules=sorted(
-            os.path.relpath(path) for path in [CLONE / "workflow/Snakefile", *(CLONE / "workflow/rules").glob("*.smk")]
-        ),
+        snakefile=shipped("workflow/Snakefile"),
+        rules=sorted(os.path.relpath(path) for path in (CLONE / "workflow/rules").glob("*.smk")),
         tool=shipped("tools/rule_graph.py"),
     output:
         "docs/rule_graph.svg",
@@ -82,13 +81,12 @@ rule rule_graph:
         "<results>/logs/rule_graph.log",
     localrule: True
     params:
-        snakefile=shipped("workflow/Snakefile"),
         study=PAPER,
         python=sys.executable,
     message:
         "Draw which rule needs which: {output}"
     shell:
-        "snakemake --snakefile {params.snakefile} --configfile {params.study} --nolock --rulegraph 2> {log} | {params.python} {input.tool} {output} >> {log} 2>&1"
+        "snakemake --snakefile {input.snakefile} --configfile {params.study} --nolock --rulegraph 2> {log} | {params.python} {input.tool} {output} >> {log} 2>&1"
 
 
 rule step_picture:
