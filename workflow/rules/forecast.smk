@@ -87,8 +87,6 @@ rule forecast_voids:
         code=studied("voids"),
     output:
         "results/forecast/voids.csv",
-    params:
-        campaign="data/ncat",
     log:
         "results/forecast/logs/voids.log",
     benchmark:
