@@ -11,9 +11,8 @@ import pytest
 from click.testing import CliRunner
 
 from asphalt_nscd.bending.settings import Bonds
-from asphalt_nscd.cli import _options
 from asphalt_nscd.cli._options import only, step
-from asphalt_nscd.files.options import Ranged, option
+from asphalt_nscd.files.options import Ranged, option, options_of
 from asphalt_nscd.specimen.settings import Vibration
 
 
@@ -43,18 +42,18 @@ def sample(
     click.echo(repr((files, outer, bonds.friction, titles, numbers, page)))
 
 
-def said(*arguments: str) -> str:
+def answer(*arguments: str) -> str:
     return CliRunner().invoke(sample, arguments).output.strip()
 
 
 def test_values_arrive_in_the_unit_of_the_field():
-    got = said(
+    got = answer(
         "a", "b", "--count", "2", "--stroke-mm", "7", "--friction", "0.3", "--title", "x", "--title", "y"
     )
     assert got == repr(
         ((Path("a"), Path("b")), Outer(count=2, inner=Inner(0.007)), 0.3, ("x", "y"), None, True)
     )
-    assert said("a", "--count", "1", "--numbers", "1,2.5", "--no-page") == repr(
+    assert answer("a", "--count", "1", "--numbers", "1,2.5", "--no-page") == repr(
         ((Path("a"),), Outer(count=1), Bonds.friction, (), (1.0, 2.5), False)
     )
 
@@ -74,8 +73,8 @@ def test_values_arrive_in_the_unit_of_the_field():
         (("a", "--count", "1", "--poisson", "0.2"), "No such option"),
     ],
 )
-def test_what_is_wrong_is_said(arguments, sentence):
-    assert sentence in said(*arguments)
+def test_what_is_wrong_is_answer(arguments, sentence):
+    assert sentence in answer(*arguments)
 
 
 def test_help_has_the_default_in_the_unit_of_the_option():
@@ -86,5 +85,5 @@ def test_help_has_the_default_in_the_unit_of_the_option():
 
 
 def test_a_default_comes_back_as_the_field_has_it():
-    for name, one in _options.options_of(Vibration).items():
-        assert one.of_field(one.in_unit(one.default)) == getattr(Vibration(), name)
+    for name, declared in options_of(Vibration).items():
+        assert declared.stored(declared.given(declared.default)) == getattr(Vibration(), name)

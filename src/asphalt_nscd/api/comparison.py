@@ -140,7 +140,7 @@ def compare(
     mixes: Mapping[str, str | Path] | Sequence[str | Path],
     *,
     measured_in: str | None = None,
-    law: str = "2s2p1d",
+    law: str = Known.law,
     draws: Draws = Draws(),  # noqa: B008  frozen
     progress: Progress = lambda *_: None,
 ) -> Comparison:

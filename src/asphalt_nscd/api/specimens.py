@@ -283,7 +283,7 @@ def pour(
     seed: int = 0,
     surfaces: Surfaces = Surfaces(),  # noqa: B008  frozen
     vibration: Vibration = Vibration(),  # noqa: B008  frozen
-    time_step_s: float = 4e-4,
+    time_step_s: float = Pouring.time_step,
     threads: int = 1,
 ) -> Packing:
     """Pour spheres from a random lattice by gravity, then vibrate the layer with the top wall.
@@ -412,9 +412,9 @@ def specimen(
     packing: Packing | str | Path,
     geometry: str | Path | Mapping[str, Any] = PAPER_GEOMETRY,
     *,
-    area: str = "paper",
-    volume_reduction: float = 0.1,
-    gap_max_mm: float = 2.0,
+    area: str = Cutting.area,
+    volume_reduction: float = Cutting.volume_reduction,
+    gap_max_mm: float = Cutting.gap_max_mm,
 ) -> Specimen:
     """Cut a specimen from a packing, turn it upright, shrink its spheres and bond them.
 

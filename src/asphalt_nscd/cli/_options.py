@@ -32,23 +32,20 @@ def step(function: Callable[..., None] | None = None, /, **settings: Any) -> Any
         return partial(step, **settings)
     hints = hints_of(function)
     params: list[click.Parameter] = []
-    said: dict[str, Option] = {}
+    declared: dict[str, Option] = {}
     for name, parameter in signature(function).parameters.items():
         if is_dataclass(hints[name]):
-            params += [_option(one) for one in _options_in(hints[name], parameter.default)]
+            params += map(_option, _options_in(hints[name], parameter.default))
             continue
         default = option("") if parameter.default is Parameter.empty else parameter.default
-        said[name] = option_of(name, default, hints[name])
-        params.append((_option if parameter.kind is Parameter.KEYWORD_ONLY else _argument)(said[name]))
+        declared[name] = option_of(name, default, hints[name])
+        params.append((_option if parameter.kind is Parameter.KEYWORD_ONLY else _argument)(declared[name]))
 
     @wraps(function)
     def run(**values: Any) -> None:
-        function(
-            **{
-                name: values[_name(said[name])] if name in said else _made(hints[name], values)
-                for name in signature(function).parameters
-            }
-        )
+        given = {name: values[_name(declaration)] for name, declaration in declared.items()}
+        made = {name: _made(hint, values) for name, hint in hints.items() if is_dataclass(hint)}
+        function(**given, **made)
 
     return click.command(params=params, **settings)(run)
 
@@ -70,49 +67,53 @@ def _options_in(kind: Any, names: Any = Parameter.empty) -> Iterator[Option]:
 def _made(kind: Any, values: Mapping[str, Any]) -> Any:
     """The dataclass of what was given."""
     given = {
-        name: said.of_field(values[_name(said)])
-        for name, said in options_of(kind).items()
-        if _name(said) in values
+        name: declared.stored(values[_name(declared)])
+        for name, declared in options_of(kind).items()
+        if _name(declared) in values
     }
     inner = {name: _made(hint, values) for name, hint in hints_of(kind).items() if is_dataclass(hint)}
     return kind(**given, **inner)
 
 
-def _name(said: Option) -> str:
+def _name(declared: Option) -> str:
     """Of a parameter of click."""
-    return said.key.lower()
+    return declared.key.lower()
 
 
-def _option(said: Option) -> click.Option:
-    word, flag = _name(said).replace("_", "-"), said.annotation is bool
+def _option(declared: Option) -> click.Option:
+    word, flag = _name(declared).replace("_", "-"), declared.annotation is bool
     more: dict[str, Any] = (
-        {"is_flag": True} if flag else {"type": _type(said), "multiple": _is_repeated(said)}
+        {"is_flag": True} if flag else {"type": _type(declared), "multiple": _is_repeated(declared)}
     )
     return click.Option(
-        [f"--{word}/--no-{word}" if flag and said.default else f"--{word}", _name(said)],
-        help=said.help,
-        **({"required": True} if said.default is MISSING else {"default": said.in_unit(said.default)}),
+        [f"--{word}/--no-{word}" if flag and declared.default else f"--{word}", _name(declared)],
+        help=declared.help,
+        **(
+            {"required": True}
+            if declared.default is MISSING
+            else {"default": declared.given(declared.default)}
+        ),
         **more,
     )
 
 
-def _argument(said: Option) -> click.Argument:
-    required, count = said.default is MISSING, -1 if _is_repeated(said) else 1
-    return click.Argument([_name(said)], type=_type(said), nargs=count, required=required)
+def _argument(declared: Option) -> click.Argument:
+    required, count = declared.default is MISSING, -1 if _is_repeated(declared) else 1
+    return click.Argument([_name(declared)], type=_type(declared), nargs=count, required=required)
 
 
-def _is_repeated(said: Option) -> bool:
-    return get_args(said.annotation)[-1:] == (...,)
+def _is_repeated(declared: Option) -> bool:
+    return get_args(declared.annotation)[-1:] == (...,)
 
 
-def _type(said: Option) -> Any:
+def _type(declared: Option) -> Any:
     """The type of click, for one of several."""
-    kind = get_args(said.annotation)[0] if _is_repeated(said) else said.annotation
-    limits = {name: said.in_unit(limit) for name, limit in said.range.limits.items()}
-    if said.type is not None:
-        return said.type
-    if said.choices:
-        return click.Choice(said.choices)
+    kind = get_args(declared.annotation)[0] if _is_repeated(declared) else declared.annotation
+    limits = {name: declared.given(limit) for name, limit in declared.range.limits.items()}
+    if declared.type is not None:
+        return declared.type
+    if declared.choices:
+        return click.Choice(declared.choices)
     if Path in (kind, *get_args(kind)):
         return File
     if get_origin(kind) is tuple:

@@ -76,7 +76,7 @@ def command(
     # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
     title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
     if has_no_phase(campaign):
-        if known.law != "2s2p1d":
+        if known.law != Known.law:
             raise click.UsageError(
                 "--law is fitted to |E*| and phase; leave it out, for these tests have no phase."
             )

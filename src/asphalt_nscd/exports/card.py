@@ -57,14 +57,6 @@ class Settings:
     units: Units = UNITS["SI"]
     name: str = "ASPHALT"
 
-    def __post_init__(self) -> None:
-        # Between these limits shear and bulk moduli are positive.
-        if self.poisson is not None and not -1.0 < self.poisson < 0.5:
-            raise InputError(
-                f"Poisson's ratio {self.poisson:g}: give a number greater than -1 and less than 0.5, "
-                "such as 0.35."
-            )
-
 
 @dataclass(frozen=True)
 class Card:

@@ -34,6 +34,7 @@ class ExportSettings(Ranged):
 
     error_percent: float = option(default=1.0, above=0.0)
     error_deg: float = option(default=0.5, above=0.0)
+    # between these limits shear and bulk moduli are positive
     poisson: float | None = option(default=None, above=-1.0, below=0.5)
     units: str = option(default="SI", choices=UNITS)
     name: str = option(default="ASPHALT")

@@ -16,12 +16,11 @@ from asphalt_nscd.files.ranges import Range
 
 _DESCRIBED = re.compile(r"^(\w+) : .*\n((?:    .+(?:\n|$))+)", re.MULTILINE)  # a parameter, in numpydoc form
 
-
 hints_of = cache(get_type_hints)
 
 
 class Option(NamedTuple):
-    """What is said of a value that a user gives.
+    """What is stated of a value that a user gives.
 
     `key` names it in a study and, in lower case, at the command line, there in `unit` of the field: 1e-3 for mm of m.
     `name` is how Python's sentences call it. `type` is that of click, where the annotation does not say it.
@@ -37,31 +36,31 @@ class Option(NamedTuple):
     choices: Sequence[str]
     type: Any
 
-    def in_unit(self, value: Any) -> Any:
+    def given(self, value: Any) -> Any:
         """A value of the field in the unit of the key."""
         return value if self.unit == 1.0 or value is None or value is MISSING else value / self.unit
 
-    def of_field(self, value: Any) -> Any:
+    def stored(self, value: Any) -> Any:
         """A value in the unit of the key as the field has it."""
         return value if self.unit == 1.0 or value is None else value * self.unit
 
 
-def option(help: str = "", default: Any = MISSING, **said: Any) -> Any:
+def option(help: str = "", default: Any = MISSING, **more: Any) -> Any:
     """A field of a dataclass, or a parameter of a command, that is an option.
 
-    said: `key`, `name`, `unit`, `choices`, `type`, `range` of `Option`, or the limits of a range. Without a default it
+    more: `key`, `name`, `unit`, `choices`, `type`, `range` of `Option`, or the limits of a range. Without a default it
     must be given; without help the docstring of its class, in numpydoc form, gives it.
     """
-    limits = {name: said.pop(name) for name in ("above", "low", "below", "high") if name in said}
-    return field(default=default, metadata={"help": help, "range": Range(**limits), **said})
+    limits = {name: more.pop(name) for name in ("above", "low", "below", "high") if name in more}
+    return field(default=default, metadata={"help": help, "range": Range(**limits), **more})
 
 
 def option_of(name: str, made: Any, annotation: Any) -> Option:
     """The option that `option` made of a field or parameter; None is left out of its annotation."""
-    said = {"key": name, "unit": 1.0, "choices": (), "type": None, **made.metadata}
+    declared = {"key": name, "unit": 1.0, "choices": (), "type": None, **made.metadata}
     kinds = [kind for kind in get_args(annotation) if kind is not NoneType]
     plain = kinds[0] if len(kinds) == 1 and NoneType in get_args(annotation) else annotation
-    return Option(**{"name": said["key"], **said}, default=made.default, annotation=plain)
+    return Option(**{"name": declared["key"], **declared}, default=made.default, annotation=plain)
 
 
 @cache
@@ -69,17 +68,19 @@ def options_of(kind: Any) -> dict[str, Option]:
     """Options of a dataclass by the names of their fields.
 
     >>> from asphalt_nscd.specimen.settings import Vibration
-    >>> said = options_of(Vibration)["frequency"]
-    >>> said.key, said.default, str(said.range), said.help
+    >>> declared = options_of(Vibration)["frequency"]
+    >>> declared.key, declared.default, str(declared.range), declared.help
     ('vibration_Hz', 30.0, 'greater than 0 and at most 1000', 'Frequency of the top wall, Hz.')
     """
     hints, described = hints_of(kind), dict(_DESCRIBED.findall(getdoc(kind) or ""))
     made = {
-        one.name: option_of(one.name, one, hints[one.name]) for one in fields(kind) if "help" in one.metadata
+        where.name: option_of(where.name, where, hints[where.name])
+        for where in fields(kind)
+        if "help" in where.metadata
     }
     return {
-        name: said._replace(help=said.help or " ".join(described.get(name, "").split()))
-        for name, said in made.items()
+        name: declared._replace(help=declared.help or " ".join(described.get(name, "").split()))
+        for name, declared in made.items()
     }
 
 
@@ -96,9 +97,11 @@ class Ranged:
 
     def __post_init__(self) -> None:
         kind: Any = type(self)
-        for name, said in options_of(kind).items():
-            value, called = getattr(self, name), f"{type(self).__name__.lower()}: {said.name}"
-            if said.range.limits and isinstance(value, Real) and not said.range.holds(float(value)):
-                raise InputError(f"{called} = {float(value):g}; give a number {said.range}.")
-            if said.choices and isinstance(value, str) and value not in said.choices:
-                raise InputError(f"{called} = {value!r} is not known; give one of {', '.join(said.choices)}.")
+        for name, declared in options_of(kind).items():
+            value, called = getattr(self, name), f"{type(self).__name__.lower()}: {declared.name}"
+            if declared.range.limits and isinstance(value, Real) and not declared.range.holds(float(value)):
+                raise InputError(f"{called} = {float(value):g}; give a number {declared.range}.")
+            if declared.choices and isinstance(value, str) and value not in declared.choices:
+                raise InputError(
+                    f"{called} = {value!r} is not known; give one of {', '.join(declared.choices)}."
+                )

@@ -16,7 +16,7 @@ _TYPES = {float: "number", int: "integer", str: "string"}
 
 
 def read_schema(path: str | Path) -> dict[str, Any]:
-    """A schema file, with `option: specimen.settings.Surfaces.friction` replaced by what is said of that field.
+    """A schema file, with `option: specimen.settings.Surfaces.friction` replaced by what that field states.
 
     Keywords beside `option` come before those of the field; a limit among them before all of its limits.
     """
@@ -40,11 +40,15 @@ def _completed(rule: Any) -> Any:
 def _of_field(place: str) -> dict[str, Any]:
     """Keywords of the schema for `specimen.settings.Surfaces.friction`, in the unit of its key."""
     module, kind, field = place.rsplit(".", 2)
-    said = options_of(getattr(import_module(f"asphalt_nscd.{module}"), kind))[field]
-    made: dict[str, Any] = {"description": said.help}
-    made |= {"enum": list(said.choices)} if said.choices else {"type": _TYPES[said.annotation]}
-    made |= {_LIMITS[name]: _short(said.in_unit(limit)) for name, limit in said.range.limits.items()}
-    return made if said.default in (None, MISSING) else made | {"default": _short(said.in_unit(said.default))}
+    declared = options_of(getattr(import_module(f"asphalt_nscd.{module}"), kind))[field]
+    made: dict[str, Any] = {"description": declared.help}
+    made |= {"enum": list(declared.choices)} if declared.choices else {"type": _TYPES[declared.annotation]}
+    made |= {_LIMITS[name]: _short(declared.given(limit)) for name, limit in declared.range.limits.items()}
+    return (
+        made
+        if declared.default in (None, MISSING)
+        else made | {"default": _short(declared.given(declared.default))}
+    )
 
 
 def _short(value: Any) -> Any:

@@ -27,6 +27,7 @@ from asphalt_nscd.diagnosis.observed.observations import Observations, Vector
 from asphalt_nscd.diagnosis.search import limits_beside, with_discrepancy
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.search.ladder import spread_of
+from asphalt_nscd.diagnosis.settings import Draws
 from asphalt_nscd.diagnosis.written import widening
 
 
@@ -84,7 +85,7 @@ class _Evidence:
         return _Evidence(self.information[np.ix_(at, at)], score)
 
 
-def pool(campaigns: Mapping[str, Diagnosis], draws: int = 4000, seed: int = 0) -> Pooled:
+def pool(campaigns: Mapping[str, Diagnosis], draws: int = Draws.number, seed: int = Draws.seed) -> Pooled:
     """Find what the campaigns have in common; `draws` are those of the chance level."""
     random = np.random.default_rng(seed)
     begun = {name: _begin(name, diagnosis) for name, diagnosis in campaigns.items()}

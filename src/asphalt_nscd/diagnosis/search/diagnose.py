@@ -24,10 +24,10 @@ from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.screening.within_isotherm import LooPrediction
 from asphalt_nscd.diagnosis.search.doubts import Key
 from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung, climb
+from asphalt_nscd.diagnosis.settings import Draws
 from asphalt_nscd.diagnosis.written import shown
 from asphalt_nscd.measurements.reduction import require_enough
 
-DRAWS = 4000
 CLOSE = 0.01  # change of the objective at which a fit that is only judged ends
 FIRST_SCATTER = (0.02, np.radians(0.5))  # of |E*| and phase, where nothing was repeated
 
@@ -89,7 +89,7 @@ def diagnose(
     observed: Observations,
     scatter_stated: tuple[float, float] | None = None,
     catalogue: tuple[Cause, ...] = CATALOGUE,
-    draws: int = DRAWS,
+    draws: int = Draws.number,
     seed: int = 0,
     use_suspects: bool = False,
 ) -> Diagnosis:
