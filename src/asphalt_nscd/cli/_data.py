@@ -10,26 +10,11 @@ from pkgutil import iter_modules
 from types import ModuleType
 from typing import Any
 
-import click
-
+from asphalt_nscd.cli._options import Pair, option
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.options import option
-
-
-class Data(click.ParamType):
-    """`simulations=results/paper/simulations.csv` as (kind, path)."""
-
-    name = "kind=path"
-
-    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
-        kind, equals, path = value.partition("=")
-        if not equals or not kind.isidentifier() or not path:
-            self.fail(f"{value!r} is not of the form kind=path.", param, context)
-        return kind, Path(path)
-
 
 Pairs = tuple[tuple[str, Path], ...]
-PAIRS: Any = option("", (), type=Data())
+PAIRS: Any = option("", (), type=Pair("kind=path"))
 
 
 def made_from(data: Iterable[tuple[str, Path]], make: Callable[..., Any]) -> Any:

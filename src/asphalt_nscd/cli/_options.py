@@ -191,16 +191,17 @@ class Numbers(click.ParamType):
         return numbers
 
 
-class Choice(click.ParamType):
-    """`E_GPa=Steifigkeit`: what a column holds, in our names with its unit, and how the table calls it."""
+class Pair(click.ParamType):
+    """`E_GPa=Steifigkeit` as two words, each without blanks around it; or as a word and a path."""
 
-    name = "quantity_unit=column"
+    def __init__(self, name: str, example: str = "", kind: type = Path) -> None:
+        self.name, self.example, self.kind = name, example or name, kind
 
     def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
-        quantity, equals, column = value.partition("=")
-        if not equals or not quantity.strip() or not column.strip():
-            self.fail(f"{value!r} is not of the form E_GPa=column.", param, context)
-        return quantity.strip(), column.strip()
+        left, _, right = (part.strip() for part in value.partition("="))
+        if not left or not right:
+            self.fail(f"{value!r} is not of the form {self.example}.", param, context)
+        return left, self.kind(right)
 
 
 output = click.option("--output", required=True, type=File, help="File to write.")
@@ -209,4 +210,9 @@ OUTPUTS = option("File to write, one for each.", key="output")
 GEOMETRY = option("Trapezoidal specimen.", type=Geometry())
 MEASURED_IN = option("Test that gave the moduli; else what the files say.", None, choices=list(TEST_TYPES))
 SHEET = option("The only sheet of an XLSX file to read; else all that hold tests.", None)
-COLUMNS = option("What a column holds, if its name does not say.", (), key="column", type=Choice())
+COLUMNS = option(
+    "What a column holds, if its name does not say.",
+    (),
+    key="column",
+    type=Pair("quantity_unit=column", "E_GPa=column", str),
+)

@@ -5,10 +5,9 @@ from pathlib import Path
 import click
 
 from asphalt_nscd.cli import _data
-from asphalt_nscd.cli._options import MEASURED_IN, only, step
+from asphalt_nscd.cli._options import MEASURED_IN, only, option, step
 from asphalt_nscd.cli._progress import bars
 from asphalt_nscd.diagnosis.settings import Draws, Known
-from asphalt_nscd.files.options import option
 
 
 @step

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
-from asphalt_nscd.cli._options import step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import option, step
 
 
 @step

@@ -8,10 +8,9 @@ from typing import Any
 import click
 
 from asphalt_nscd.cli import _data
-from asphalt_nscd.cli._options import COLUMNS, MEASURED_IN, SHEET, Geometry, step
+from asphalt_nscd.cli._options import COLUMNS, MEASURED_IN, SHEET, Geometry, option, step
 from asphalt_nscd.cli._progress import bars
 from asphalt_nscd.diagnosis.settings import Draws, Known, Scatter, Simulated
-from asphalt_nscd.files.options import option
 
 PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 

@@ -6,10 +6,9 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.cli._options import OUTPUT, step
+from asphalt_nscd.cli._options import OUTPUT, option, step
 from asphalt_nscd.exports.formats import FORMATS
 from asphalt_nscd.exports.settings import ExportSettings
-from asphalt_nscd.files.options import option
 
 
 @step

@@ -5,8 +5,7 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.cli._options import GEOMETRY, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import GEOMETRY, option, step
 
 
 class Test(click.ParamType):

@@ -6,8 +6,7 @@ import click
 
 from asphalt_nscd.bending.further_settings import Fall
 from asphalt_nscd.bending.settings import Bonds
-from asphalt_nscd.cli._options import OUTPUT, only, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import OUTPUT, only, option, step
 
 
 @step

@@ -3,8 +3,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from asphalt_nscd.cli import _data
-from asphalt_nscd.cli._options import step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import option, step
 
 
 @step

@@ -4,9 +4,8 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli._options import step
+from asphalt_nscd.cli._options import option, step
 from asphalt_nscd.cli._progress import bars
-from asphalt_nscd.files.options import option
 
 
 @step

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli._options import OUTPUT, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import OUTPUT, option, step
 
 
 @step

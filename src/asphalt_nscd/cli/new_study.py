@@ -5,8 +5,7 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.cli._options import COLUMNS, CYLINDER, MEASURED_IN, SHEET, TRAPEZOID, Geometry, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import COLUMNS, CYLINDER, MEASURED_IN, SHEET, TRAPEZOID, Geometry, option, step
 from asphalt_nscd.table_import.quantities import MEASURED, SIEVES, spellings
 
 

@@ -4,8 +4,7 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli._options import OUTPUTS, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import OUTPUTS, option, step
 
 
 @step

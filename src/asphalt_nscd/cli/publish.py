@@ -3,8 +3,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from asphalt_nscd.cli import _data
-from asphalt_nscd.cli._options import step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import Pair, option, step
 
 
 @step
@@ -16,7 +15,7 @@ def command(
     documents: tuple[Path, ...] = option(
         "Markdown file, or folder of them, whose blocks are filled; repeatable.", (), key="document"
     ),
-    block: _data.Pairs = option("name=table for a block; repeatable.", (), type=_data.Data()),
+    block: _data.Pairs = option("name=table for a block; repeatable.", (), type=Pair("kind=path")),
 ) -> None:
     """Copy results that will be committed, with checksums, and fill their tables into documents."""
     from asphalt_nscd.reporting.publish import fill_blocks, publish

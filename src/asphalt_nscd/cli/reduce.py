@@ -3,8 +3,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from asphalt_nscd.cli._options import GEOMETRY, OUTPUT, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import GEOMETRY, OUTPUT, option, step
 
 
 @step

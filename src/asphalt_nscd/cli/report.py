@@ -1,26 +1,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
-
-import click
 
 from asphalt_nscd.cli import _data
-from asphalt_nscd.cli._options import OUTPUT, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import OUTPUT, Pair, option, step
 
-
-class Part(click.ParamType):
-    """`0 Diagnosis=results/paper/figures/fig_master.png` as (part, path)."""
-
-    name = "part=path"
-
-    def convert(self, value: Any, param: click.Parameter | None, context: click.Context | None) -> Any:
-        """A part of a page and a path of `part=path`."""
-        part, equals, path = value.partition("=")
-        if not equals or not part or not path:
-            self.fail(f"{value!r} is not of the form part=path.", param, context)
-        return part, Path(path)
+PART = Pair("part=path")
 
 
 @step
@@ -32,13 +17,13 @@ def command(
         "A figure (PNG) or page (HTML) and the part of the report that shows it; repeatable.",
         (),
         key="entry",
-        type=Part(),
+        type=PART,
     ),
     sources: _data.Pairs = option(
         "Name of a figure or page, and a file with its data that the report links; repeatable.",
         (),
         key="source",
-        type=Part(),
+        type=PART,
     ),
     captions: Path = option("Folder of captions, an .rst file for each entry."),
     output: Path = OUTPUT,

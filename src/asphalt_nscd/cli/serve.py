@@ -2,8 +2,7 @@ from __future__ import annotations
 
 import click
 
-from asphalt_nscd.cli._options import step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import option, step
 
 
 @step

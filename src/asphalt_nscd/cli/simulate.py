@@ -8,8 +8,7 @@ from click.core import ParameterSource
 
 from asphalt_nscd.bending.settings import Fitted, Load, Numerics
 from asphalt_nscd.cli import _progress
-from asphalt_nscd.cli._options import OUTPUTS, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import OUTPUTS, option, step
 from asphalt_nscd.measurements.kinds import usual_steps_per_cycle
 
 

@@ -2,8 +2,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from asphalt_nscd.cli._options import OUTPUT, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import OUTPUT, option, step
 
 
 @step

@@ -5,8 +5,7 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.cli._options import BEAM, CYLINDER, OUTPUT, TRAPEZOID, Geometry, step
-from asphalt_nscd.files.options import option
+from asphalt_nscd.cli._options import BEAM, CYLINDER, OUTPUT, TRAPEZOID, Geometry, option, step
 from asphalt_nscd.specimen.settings import Cutting
 
 
