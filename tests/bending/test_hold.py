@@ -10,7 +10,7 @@ from theory.specimens import jittered_beam
 
 import asphalt_nscd as an
 from asphalt_nscd.bending.bending_test import bond_law, run_test
-from asphalt_nscd.bending.case import LoadCase
+from asphalt_nscd.bending.case import LoadCase, load_case
 from asphalt_nscd.bending.condensing import condensed
 from asphalt_nscd.bending.further_settings import Hold
 from asphalt_nscd.bending.hold import hold, told
@@ -130,7 +130,7 @@ def test_nonsense_is_refused():
             Hold(**wrong)
     beam = jittered_beam().geometry
     with pytest.raises(InputError, match="give amplitude_m or amplitude_N"):
-        an.Load(amplitude_m=1e-6, amplitude_N=1.0).at(10.0, beam)
+        load_case(an.Load(amplitude_m=1e-6, amplitude_N=1.0), 10.0, beam)
 
 
 def test_a_commanded_force_has_no_rig(prism):
