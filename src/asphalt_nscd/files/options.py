@@ -87,9 +87,7 @@ def options_of(kind: Any) -> dict[str, Option]:
 class Ranged:
     """A dataclass that refuses values out of the ranges of its options, in one sentence.
 
-    >>> @dataclass(frozen=True)
-    ... class Vibration(Ranged):
-    ...     duration: float = option("Duration.", 1.0, key="duration_s", low=0.0, high=60.0)
+    >>> from asphalt_nscd.specimen.settings import Vibration
     >>> Vibration(duration=-1.0)
     Traceback (most recent call last):
     asphalt_nscd.files.errors.InputError: vibration: duration_s = -1; give a number at least 0 and at most 60.
