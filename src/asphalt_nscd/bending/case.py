@@ -104,7 +104,7 @@ class RunOptions:
     progress: Progress = lambda done, total: None
     energy: bool = False
     frames: int = 0
-    most_broken: float = 1.0
+    most_broken: float = 0.2  # beyond, bond after bond breaks, and each is solved for: it took minutes
     most_closed: float = 0.1
 
 
