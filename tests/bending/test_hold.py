@@ -13,7 +13,7 @@ from asphalt_nscd.bending.bending_test import bond_law, run_test
 from asphalt_nscd.bending.case import LoadCase, load_case
 from asphalt_nscd.bending.condensing import condensed
 from asphalt_nscd.bending.further_settings import Hold
-from asphalt_nscd.bending.hold import hold, told
+from asphalt_nscd.bending.hold import coarse, hold, told
 from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.cli import hold as hold_command
@@ -60,6 +60,18 @@ def test_the_band_is_where_elements_that_relax_in_these_times_lose_most():
     for hertz, time in zip(held.band, (10.0, 0.02), strict=True):
         lag = 2j * np.pi * time * hertz * np.array([0.99, 1.0, 1.01])
         assert np.argmax((lag / (1.0 + lag)).imag) == 1
+
+
+def test_steps_too_long_for_the_law_are_told(prism):
+    """Implicit Euler relaxes by 1 / (1 + x) a step, the law by exp(-x): far out that is another modulus."""
+    fading = KelvinChain(24.3e9, 3.71e9, (), ())  # by 1 / 0.15 s
+    for steps, doubtful in ((200, True), (20_000, False)):
+        table = hold(prism, fading, Hold(1.5, steps, displacement_m=2e-8))
+        off = table.attrs["error_at_end"]
+        x = 1.5 / steps * 24.3 / 3.71
+        assert off == pytest.approx((1.0 + x) ** -steps * np.exp(steps * x) - 1.0, rel=0.02)
+        assert (coarse(table) != "") == doubtful
+    assert coarse(hold(prism, fading, Hold(1.5, 20, displacement_m=2e-8))).startswith("hold: at its end E is")
 
 
 def test_what_breaks_is_told(prism):

@@ -24,7 +24,9 @@ def command(
     output: Path = OUTPUT,
 ) -> None:
     """Assemble the bonded system of a specimen and its reduced form. Every test on the specimen uses them."""
-    from asphalt_nscd.bending.condensing import condense
+    from asphalt_nscd.bending.condensing import condense, without_effect
 
-    unknowns, static = condense(specimen, bonds, output, excerpt_output, stand_by)
+    unknowns, static, area = condense(specimen, bonds, output, excerpt_output, stand_by)
+    if idle := without_effect(bonds, area):
+        click.echo(f"warning: {idle}", err=True)
     click.echo(f"{output}: {unknowns} unknowns; static |E*| is {static:.4g} of the modulus of the bonds")

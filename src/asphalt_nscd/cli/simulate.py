@@ -42,7 +42,7 @@ def command(
             f"{count} x --frequency-hz, {len(laws)} x --law and {len(outputs)} x --output; give an --output "
             "for each frequency, and one --law or one for each."
         )
-    from asphalt_nscd.bending.bending_test import TestFiles, damage, read_subject, simulate, told
+    from asphalt_nscd.bending.bending_test import TestFiles, damage, read_subject, simulate, told, unsettled
     from asphalt_nscd.bending.case import RunOptions, load_case
 
     # Read once for all frequencies: 400 jobs of a study became 80.
@@ -66,3 +66,5 @@ def command(
         click.echo(told(columns))
         if columns["broken_bonds"]:
             click.echo(f"warning: {damage(columns)}", err=True)
+        if doubt := unsettled(columns):
+            click.echo(f"warning: {doubt}", err=True)
