@@ -4,7 +4,6 @@ Of the binder the viscosity of its grade is known, of the grading four sieves; t
 Packings are those of another recipe, whatever the grading.
 """
 
-import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
@@ -16,6 +15,7 @@ import pandas as pd
 import yaml
 from scipy.optimize import brentq
 
+from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.commit import commit
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_table
@@ -32,7 +32,7 @@ from asphalt_nscd.forecasting.levels import levels_of
 from asphalt_nscd.forecasting.recipe import Recipe, read_recipe, recipe_of
 from asphalt_nscd.forecasting.rivals import hirsch, witczak
 from asphalt_nscd.rheology.spectrum import Spectrum
-from forecast.differential import FINE, RIGDEN, differential
+from studies.forecast.differential import FINE, RIGDEN, differential
 
 GLASSY, RHEOLOGICAL_INDEX = 1e9, 1.8  # Pa; Christensen & Anderson (1992), middle of paving grades
 DENSITY = {"aggregate": 2670.0, "binder": 1030.0}  # kg/m3, usual: the source gives volumes
@@ -216,9 +216,9 @@ def overall(points: pd.DataFrame) -> pd.DataFrame:
     return pd.concat(rows).set_index("temperature_C").reset_index()
 
 
-if __name__ == "__main__":
-    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
-    given, made = snakemake.input, snakemake.output
+def run(job: Any) -> None:
+    """From the files of the rule to its tables."""
+    given, made = job.input, job.output
     networks = ShippedPackings(read_recipe(given.recipe), given.packings)
     usual = yaml.safe_load(Path(given.recipe).read_text(encoding="utf-8"))
     recipes, moduli, seen = (pd.read_csv(given[name]) for name in ("recipes", "moduli", "seen"))
@@ -226,3 +226,7 @@ if __name__ == "__main__":
     points, mixes = forecast_all(recipes, moduli, versions, usual, networks)
     for name, table in {"points": points, "mixes": mixes, "overall": overall(points)}.items():
         write_table(made[name], table)
+
+
+if __name__ == "__main__":
+    run_script(globals()["snakemake"], run)

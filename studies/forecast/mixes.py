@@ -5,16 +5,17 @@ Of each mix the law of the binder makes the forecast, and the law of the mix is 
 measurements, as published. All mixes of the table share one recipe.
 """
 
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 from scipy.optimize import least_squares, minimize_scalar, nnls
 
+from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.forecasting.film import Solid
@@ -24,8 +25,8 @@ from asphalt_nscd.forecasting.rivals import RIVALS
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius
 from asphalt_nscd.rheology.spectrum import Spectrum
-from forecast.differential import FINE, RIGDEN, differential
-from forecast.packings import OTHER_CUTS
+from studies.forecast.differential import FINE, RIGDEN, differential
+from studies.forecast.packings import OTHER_CUTS
 
 PRINTED = Solid(95e9, 0.17)
 """What the documentation of MeanFieldHom.jl gives the aggregate (docs/src/applications/bituminous.md)."""
@@ -363,12 +364,16 @@ def overall(errors: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-if __name__ == "__main__":
-    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
-    given, made = snakemake.input, snakemake.output
+def run(job: Any) -> None:
+    """From the files of the rule to its tables."""
+    given, made = job.input, job.output
     networks = Networks(kept_in(given.packings))
     pairs = read_pairs(given.mixes, read_recipe(given.recipe))
     errors, points = compare(pairs, networks)
     tables = {"errors": errors, "points": points, "overall": overall(errors), "bands": bands(pairs, networks)}
     for name, table in tables.items():
         write_table(made[name], table)
+
+
+if __name__ == "__main__":
+    run_script(globals()["snakemake"], run)

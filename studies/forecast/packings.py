@@ -1,8 +1,9 @@
 """Packings of a recipe's levels, those of other cuts of its grading included, poured so that forecasts find them."""
 
-import sys
 from pathlib import Path
+from typing import Any
 
+from asphalt_nscd.cli import run_script
 from asphalt_nscd.forecasting.forecast import kept_in
 from asphalt_nscd.forecasting.levels import levels_of
 from asphalt_nscd.forecasting.recipe import read_recipe
@@ -28,6 +29,10 @@ def pour(recipe: str | Path, folder: str | Path) -> None:
         )
 
 
+def run(job: Any) -> None:
+    """From the files of the rule to its tables."""
+    pour(job.input.recipe, job.output[0])
+
+
 if __name__ == "__main__":
-    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
-    pour(snakemake.input.recipe, snakemake.output[0])
+    run_script(globals()["snakemake"], run)

@@ -5,13 +5,14 @@ before: 0.01 to 0.1 s, 20 to 60 K below the softening point, index of penetratio
 time of loading it is a power law, whose phase is that of its exponent.
 """
 
-import sys
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.forecasting.forecast import Networks, Settings, kept_in, modulus_of
@@ -87,8 +88,12 @@ def compare_paper(grading: str | Path, laws: str | Path, recipe: Recipe, network
     return pd.DataFrame(rows)
 
 
-if __name__ == "__main__":
-    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
-    given, made = snakemake.input, snakemake.output
+def run(job: Any) -> None:
+    """From the files of the rule to its tables."""
+    given, made = job.input, job.output
     networks = Networks(kept_in(made.packings))
     write_table(made.table, compare_paper(given.grading, given.laws, read_recipe(given.recipe), networks))
+
+
+if __name__ == "__main__":
+    run_script(globals()["snakemake"], run)

@@ -4,7 +4,6 @@ The law of the binder cancels: each state is taken at the modulus of binder with
 binder content are those of the specimens, the grading that of another recipe.
 """
 
-import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
@@ -13,6 +12,7 @@ import numpy as np
 import pandas as pd
 from scipy.stats import t as student
 
+from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.forecasting.forecast import Networks, Settings, kept_in, modulus_of
@@ -134,8 +134,12 @@ def _specimens(folder: Path) -> pd.DataFrame:
     return found.reset_index(drop=True)
 
 
+def run(job: Any) -> None:
+    """From the files of the rule to its tables."""
+    campaign = Path(job.input.campaign[0]).parent
+    recipe, packings = read_recipe(job.input.recipe), kept_in(job.input.packings)
+    write_table(job.output[0], compare_voids(campaign, recipe, Networks(packings)))
+
+
 if __name__ == "__main__":
-    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
-    campaign = Path(snakemake.input.campaign[0]).parent
-    recipe, packings = read_recipe(snakemake.input.recipe), kept_in(snakemake.input.packings)
-    write_table(snakemake.output[0], compare_voids(campaign, recipe, Networks(packings)))
+    run_script(globals()["snakemake"], run)

@@ -4,19 +4,20 @@ Truth: the differential scheme (McLaughlin 1977) for each level and the air void
 by Walton (1987) beside it. Aggregate and pressure of the truth are drawn anew for each mix, and so is scatter.
 """
 
-import sys
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.forecasting.forecast import Networks, kept_in
 from asphalt_nscd.forecasting.recipe import Recipe, read_recipe
 from asphalt_nscd.forecasting.rivals import hirsch
-from forecast import wrong_inputs
-from forecast.differential import differential
+from studies.forecast import wrong_inputs
+from studies.forecast.differential import differential
 
 DRAWS = 50  # of each wrong input and size
 TIMES = (0.0, 1.0, 2.0, 3.0)  # the limit
@@ -64,7 +65,7 @@ def measured(
 
 def campaign(recipe: Recipe, changes: wrong_inputs.Changes, draws: int = DRAWS) -> pd.DataFrame:
     """A row for each truth, evidence, wrong input and size: how often it was named, and how."""
-    rows = []
+    rows: list[dict[str, Any]] = []
     for weighed in (False, True):
         limit = wrong_inputs.limits(changes, weighed)
         for truth in TRUTHS:
@@ -97,9 +98,13 @@ def campaign(recipe: Recipe, changes: wrong_inputs.Changes, draws: int = DRAWS) 
     return pd.DataFrame(rows)
 
 
-if __name__ == "__main__":
-    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
-    stated, packings = read_recipe(snakemake.input.recipe), kept_in(snakemake.input.packings)
+def run(job: Any) -> None:
+    """From the files of the rule to its tables."""
+    stated, packings = read_recipe(job.input.recipe), kept_in(job.input.packings)
     rates = campaign(stated, wrong_inputs.changes_of(stated, Networks(packings)))
-    write_table(snakemake.output[0], rates)
+    write_table(job.output[0], rates)
     print(rates.to_string(index=False))
+
+
+if __name__ == "__main__":
+    run_script(globals()["snakemake"], run)

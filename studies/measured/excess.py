@@ -9,6 +9,7 @@ It is not blind: both populations were in sight when the mechanism was thought o
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -29,15 +30,13 @@ QUARTER = 0.5 * np.pi  # phase [rad] of a power law with an exponent of 1
 def excess_read(programme: Programme = PROGRAMME) -> np.ndarray:
     """Phase [rad] above that of the law, (k,), for power laws of the exponents EXPONENTS."""
     band = 2.0 * np.pi * 1e-3, 2.0 * np.pi * 1e2
-    phases = [
-        float(
-            np.angle(modulus_as_read(kelvin_chain(lambda w, n=n: (1j * w) ** n, *band)[0], [1.0], programme))[
-                0
-            ]
-        )
-        for n in EXPONENTS
-    ]
-    return np.array(phases) - QUARTER * EXPONENTS
+    chains = [kelvin_chain(partial(_power_law, exponent), *band)[0] for exponent in EXPONENTS]
+    read = np.array([modulus_as_read(chain, [1.0], programme)[0] for chain in chains])
+    return np.asarray(np.angle(read) - QUARTER * EXPONENTS)
+
+
+def _power_law(exponent: float, omega: np.ndarray) -> np.ndarray:
+    return np.asarray((1j * omega) ** exponent)
 
 
 def isotherms(table: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:

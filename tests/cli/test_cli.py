@@ -248,7 +248,6 @@ def _lives(process: int) -> bool:
         )
     ]
     + [["reduce", "m.csv", "--geometry", "g.csv", "--output", "x", "--cycles", "-3"]]
-    + [["scale-law", "l.json", "--parameter", "Em", "--output", "x", "--factor", "nan"]]
     + [["fit", "m.csv", "--output", "x", "--temperature-c", "nan"]]
     + [["trim", "d.h5", "--geometry", "g.csv", "--output", "x", "--volume-reduction", "1"]]
     + [["condense", "s.h5", "--output", "x", "--poisson", "2"]],
@@ -269,8 +268,8 @@ def test_number_out_of_its_range_is_refused_before_anything_is_read(arguments, c
         (["figure", "fig09", "laws=l", "--output-stem", "x"], "data simulations, measured: missing"),
         (["table", "table4", "simulation=s", "--output", "x.csv"], "data simulation: not known"),
         (
-            ["table", "audit", "gradings=g", "--output", "x.csv"],
-            "data gradings: not known; give statements, grading, counts",
+            ["table", "table2", "gradings=g", "--output", "x.csv"],
+            "data gradings: not known; give grading, published, used",
         ),
     ],
 )

@@ -12,13 +12,13 @@ from asphalt_nscd.files.store import write_table
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.reduction import reduce_table
 from asphalt_nscd.measurements.tables import origin_of, read_measured
-from asphalt_nscd.reporting.tables.smoothness import printed
-from asphalt_nscd.rheology.consistent import draws
 from asphalt_nscd.rheology.fitted_laws import fit_temperature
 from asphalt_nscd.rheology.laws_io import read_law
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.reconstruct import fit_published
 from asphalt_nscd.study.configuration import complete_study
+from studies.paper.consistent import draws
+from studies.paper.smoothness import printed
 
 PAPER = Path(__file__).parents[2] / "data" / "paper"
 

@@ -87,7 +87,7 @@ def test_unknown_module_is_refused(package):
 
 def test_fits_are_no_concern_of_tests_with_published_laws():
     """Editing the fit, or how measurements are read, must not make a hundred tests run again."""
-    steps = ("published-law", "scale-law", "deposit", "trim", "condense", "simulate")
+    steps = ("published-law", "deposit", "trim", "condense", "simulate")
     for step in steps:
         behind = {path.name for path in sources.source_files(f"cli.{step.replace('-', '_')}")}
         assert not {"fitting.py", "fitted_laws.py", "reduction.py", "reconstruct.py"} & behind, step
@@ -98,7 +98,7 @@ def test_plots_are_no_concern_of_the_tests_and_the_core_is():
     def behind(*modules):
         return {str(path.relative_to(sources.PACKAGE)) for path in sources.source_files(*modules)}
 
-    simulate, figure = behind("cli.simulate"), behind("cli.figure", "reporting.figures.fig09")
+    simulate, figure = behind("cli.simulate"), behind("cli.figure", "reporting.figures.isotherms")
     assert not [name for name in simulate if name.startswith("reporting/")]
     assert {
         "nscd/stepping/reduced_model.py",
@@ -107,7 +107,7 @@ def test_plots_are_no_concern_of_the_tests_and_the_core_is():
         "bending/bending_test.py",
     } <= simulate
     assert "nscd/spheres/granular.py" in behind("cli.deposit")
-    assert "reporting/figures/fig09.py" in figure and "reporting/figures/fig07.py" not in figure
+    assert "reporting/figures/isotherms.py" in figure and "reporting/figures/fig07.py" not in figure
     assert not [name for name in figure if name.startswith("nscd/")]
 
 

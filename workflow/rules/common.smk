@@ -35,6 +35,7 @@ if find_spec("asphalt_nscd") is None and CLONE:
 BARE = find_spec("pandas") is None  # a Snakemake whose jobs have an environment of their own
 
 from asphalt_nscd.nscd.core_cache import cache_base
+from asphalt_nscd.workflow_support import sources
 from asphalt_nscd.workflow_support.lock import release_stale_locks
 
 ALONE = MAIN and workflow.is_main_process and release_stale_locks(".snakemake")
@@ -44,13 +45,18 @@ DEPLOYED = bool(workflow.deployment_settings.deployment_method)  # --sdm
 # have an environment of their own, it is that of the clone, run by the first `python` of that environment.
 beside = Path(sys.executable).parent
 places = [str(beside), os.environ["PATH"]]
+SCRIPTS = CLONE or Path(".snakemake/fetched").resolve()  # holds studies/, whose scripts import each other
+searched = [str(SCRIPTS), os.environ.get("PYTHONPATH", "")]
+sources.STUDIES[:] = [SCRIPTS / "studies"]
 if CLONE and (DEPLOYED or not shutil.which("asphalt-nscd", path=beside)):
     places.insert(0, str(CLONE / "workflow/scripts"))
+    searched.insert(1, str(CLONE / "src"))
 else:
     from asphalt_nscd.files.store import VERSIONS, package_versions
 
     os.environ[VERSIONS] = json.dumps(package_versions())  # what each of many jobs would find out for itself
 os.environ["PATH"] = os.pathsep.join(places)
+os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, searched))
 os.environ["ASPHALT_NSCD_CACHE"] = cache_base()
 os.environ["ASPHALT_NSCD_WITHIN_WORKFLOW"] = "1"
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)

@@ -66,6 +66,7 @@ TABLES = {
     "table4": data("simulations measured", published=ERRORS),
     "ladder": data("simulations likely facets extended measured diagnosis", published=ERRORS),
 }
+PAPER_TABLES = {}  # those of studies/paper; a file alone is handed on as such
 # Name of a table: part of the report.
 PAGES = {
     "ladder": "0 Diagnosis",
@@ -94,7 +95,7 @@ if PRINTED:
     if "reconstruct" in STUDY["measurements"]:
         beside = ["smoothness", "ensemble"] if STUDY["study"] == "paper" else []  # 20 s that no smaller study needs
         PAGES |= dict.fromkeys(["reconstructions", *beside], "1 Measurements and laws")
-        TABLES |= dict.fromkeys(["reconstructions", *beside], {"laws": PAPER_LAWS} | data("errors"))
+        PAPER_TABLES |= dict.fromkeys(["reconstructions", *beside], {"laws": PAPER_LAWS[0], "errors": ERRORS[0]})
 if STEPPING:
     FIGURES["fig06"] = ("4 Time step", {"solved": SOLVED, "part": PART_SOLVED, "stopped": STOPPED})
     PAGES["time_steps"] = "4 Time step"
@@ -111,14 +112,15 @@ if SENSITIVITY:
 if AUDIT:
     PAGES |= {"readings": "6 Audit", "bond_readings": "6 Audit"}
     FIGURES["fig_readings"] = ("6 Audit", data("readings simulations"))
-    TABLES["bond_readings"] = {
+    PAPER_TABLES["bond_readings"] = {
         "deposits": [*DEPOSITS, *expand("<results>/deposits/{sample}.h5", sample=PACKED[1:])],
-        **data("specimens simulations packing" if PACKING else "specimens simulations"),
-        "blocked": BLOCKED[:1],
+        "tests": [*SIMULATIONS, *["<results>/packing.csv"] * bool(PACKING)],
+        "blocked": BLOCKED[0],
+        **data("specimens"),
     }
 if LIKELY and PRINTED:
     PAGES |= {"likely": "6 Audit", "levels": "6 Audit"}
-    TABLES["levels"] = data("simulations likely errors")
+    PAPER_TABLES["levels"] = {"simulations": SIMULATIONS[0], "likely": LIKELY_SIMULATIONS[0], "errors": ERRORS[0]}
 if PACKING:
     PAGES["packing"] = "2 Preparation"
     TABLES["packing"] = {
@@ -129,14 +131,15 @@ if PACKING:
     FIGURES["fig_packing"] = ("2 Preparation", data("packing"))
 if AUDIT and SENSITIVITY and PACKING and STEPPING and PRINTED:
     PAGES["audit"] = "6 Audit"
-    TABLES["audit"] = {
-        "statements": [shipped("data/paper/statements.csv")],
-        **data("grading counts laws errors fitted measured simulations sensitivity readings bond_readings packing"),
-        "laws": PAPER_LAWS,
-        **data("facets table4 deposits specimens time_steps"),
+    alone = "grading counts errors simulations sensitivity readings bond_readings packing table4 time_steps"
+    PAPER_TABLES["audit"] = {
+        "statements": shipped("studies/paper/statements.yaml"),
+        "laws": PAPER_LAWS[0],
+        **{kind: files[0] for kind, files in data(alone).items()},
+        **data("fitted measured facets deposits specimens"),
         "stopped": STOPPED,
-        "waveform": waveform(TYPICAL, FASTEST),
-        "profile": waveform(SOFTER, SLOWEST),
+        "waveform": waveform(TYPICAL, FASTEST)[0],
+        "profile": waveform(SOFTER, SLOWEST)[0],
     }
 if COMMON_LAW:
     PAGES |= dict.fromkeys(["extended", "prony", "dynamic_modulus"], "0 Diagnosis")

@@ -48,19 +48,21 @@ rule scale_law:
     """Section 4.3: the law of the tests with one parameter times a factor."""
     input:
         law=LAW,
-        code=code("scale-law"),
+        code=studied("paper.scale_law"),
     output:
         "<results>/laws/scaled/{parameter}_{factor}/T{temperature}.json",
     log:
         "<results>/logs/scale_law/{parameter}_{factor}/T{temperature}.log",
     benchmark:
         "<results>/benchmarks/scale_law/{parameter}_{factor}/T{temperature}.tsv"
+    params:
+        script="scale_law",
     conda:
         ENVIRONMENT
     message:
         "Law at {wildcards.temperature} degC with {wildcards.parameter} times {wildcards.factor}"
-    shell:
-        "asphalt-nscd scale-law {input.law} --parameter {wildcards.parameter} --factor {wildcards.factor} --output {output} > {log} 2>&1"
+    script:
+        SCRIPT_OF_PAPER
 
 
 use rule published_law as pascal_law with:

@@ -4,23 +4,12 @@
 RECIPE = "data/forecast/recipe.yaml"
 FORECAST_FILES = ["forecast.csv", "rivals.csv", "law.json", "forecast.json", "forecast.html"]
 
-# Scripts of studies/ import each other and, where the clone is not installed, its package.
-_installed = not DEPLOYED and shutil.which("asphalt-nscd", path=Path(sys.executable).parent)
-_roots = [CLONE / "studies", *([] if _installed else [CLONE / "src"]), os.environ.get("PYTHONPATH")]
-os.environ["PYTHONPATH"] = os.pathsep.join(str(root) for root in _roots if root)
-
-
-def studied(name):
-    """What stands for the source behind a script of studies/forecast."""
-    files = source_files(CLONE / f"studies/forecast/{name}.py")
-    return local(stamp(".snakemake/code", f"studies-forecast-{name}", files).as_posix())
-
 
 rule forecast_packings:
     """Filler, sand and stones, each poured from its own part of the grading."""
     input:
         recipe=RECIPE,
-        code=studied("packings"),
+        code=studied("forecast.packings"),
     output:
         directory("results/forecast/packings"),
     log:
@@ -63,7 +52,7 @@ rule forecast_mixes:
         recipe=RECIPE,
         mixes="data/forecast/binder_mix.csv",
         packings="results/forecast/packings",
-        code=studied("mixes"),
+        code=studied("forecast.mixes"),
     output:
         **{table: f"results/forecast/mixes/{table}.csv" for table in ("errors", "points", "overall", "bands")},
     log:
@@ -84,7 +73,7 @@ rule forecast_voids:
         recipe=RECIPE,
         campaign=[f"data/ncat/{table}" for table in sorted(os.listdir(CLONE / "data/ncat")) if table.endswith(".csv")],
         packings="results/forecast/packings",
-        code=studied("voids"),
+        code=studied("forecast.voids"),
     output:
         "results/forecast/voids.csv",
     log:
@@ -107,7 +96,7 @@ rule forecast_blind:
         moduli="data/mixes50/modulus.csv",
         seen="data/mixes50/seen.csv",
         packings="results/forecast/packings",
-        code=studied("blind"),
+        code=studied("forecast.blind"),
     output:
         points="results/forecast/blind.csv",
         mixes="results/forecast/blind_mixes.csv",
@@ -130,7 +119,7 @@ rule forecast_paper:
         recipe=RECIPE,
         grading="data/paper/table1_grading.csv",
         laws="data/paper/table3_burgers.csv",
-        code=studied("paper_mix"),
+        code=studied("forecast.paper_mix"),
     output:
         table="results/forecast/paper_mix.csv",
         packings=directory("results/forecast/paper_packings"),
@@ -159,7 +148,7 @@ rule forecast_wrong_recipes:
     input:
         recipe=RECIPE,
         packings="results/forecast/packings",
-        code=studied("wrong_recipes"),
+        code=studied("forecast.wrong_recipes"),
     output:
         "results/forecast/wrong_recipes.csv",
     log:

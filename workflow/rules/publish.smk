@@ -13,7 +13,7 @@ class Published(NamedTuple):
 
 STUDY_TABLES = {"samples": "samples.csv", "timings": "timings.md"}
 STUDY_TABLES |= {"ladder": "ladder.csv"} if COMMON_LAW else {}
-STUDY_TABLES |= {name: f"{name}.csv" for name in ("bond_readings", "reconstructions") if name in TABLES}
+STUDY_TABLES |= {name: f"{name}.csv" for name in ("bond_readings", "reconstructions") if name in PAGES}
 
 PUBLISHED = {
     "publish": Published(

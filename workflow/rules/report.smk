@@ -1,17 +1,21 @@
 # One rule for each figure, table and page; then the report that holds them all.
 
+from asphalt_nscd.reporting.figures import SEVERAL
+
 # Part of the report by the name of figure or page.
 PARTS = {"diagnosis": "0 Diagnosis"} | {name: part for name, (part, _) in FIGURES.items()} | PAGES
 
 
 for name, (category, files) in FIGURES.items():
+    if name == "fig_readings":
+        continue  # of studies/paper
 
     rule:
         name:
             name
         input:
             **files,
-            code=code("figure", f"reporting.figures.{name}"),
+            code=code("figure", f"reporting.figures.{SEVERAL.get(name, [name])[0]}"),
         output:
             f"<results>/figures/{name}.pdf",
             f"<results>/figures/{name}.svg",
@@ -207,7 +211,7 @@ rule report:
             f"<results>/figures/{name}.png"
             for name in ("fig_residual_map", "fig10_extended" if COMMON_LAW else "fig10")
         ],
-        beside=[f"<results>/{name}.csv" for name in ("rivals", "ensemble") if name in TABLES],
+        beside=[f"<results>/{name}.csv" for name in ("rivals", "ensemble") if name in PAGES],
         code=code("report"),
         template=page_files("report.html"),
     output:

@@ -23,7 +23,7 @@ STAGES = {
     ),
     "extended": ("The tests run again with what the diagnosis named", [*EXTENDED_SIMULATIONS, "<results>/ladder.csv"]),
 }
-if "audit" not in TABLES:  # statements of the paper; a study without its parts has none to judge
+if "audit" not in PAGES:  # statements of the paper; a study without its parts has none to judge
     STAGES["audit"] = ("Tests under readings of the paper", ["<results>/readings.csv"] if AUDIT else [])
 
 for name, (message, files) in STAGES.items():

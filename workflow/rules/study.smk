@@ -91,6 +91,30 @@ def code(step, *modules):
     return local(stamp(".snakemake/code", "-".join([step, *modules[:1]]), files).as_posix())
 
 
+OF_PAPER = [
+    *("audit", "bond_readings", "consistent", "ensemble", "equations", "fig_readings", "finding", "levels"),
+    *("other_bonds", "outcomes", "reconstructions", "scale_law", "smooth_bounds", "smoothness"),
+]
+
+if not CLONE:
+    for _name in OF_PAPER:
+        _path = SCRIPTS / f"studies/paper/{_name}.py"
+        _content = Path(shipped(f"studies/paper/{_name}.py")).read_bytes()
+        if not _path.is_file() or _path.read_bytes() != _content:
+            _path.parent.mkdir(parents=True, exist_ok=True)
+            _path.write_bytes(_content)
+
+
+# Of the rule whose parameter it is: Snakemake would run again, after a change of a comment, what it is told outright.
+SCRIPT_OF_PAPER = str(SCRIPTS / "studies/paper/{params.script}.py")
+
+
+def studied(name):
+    """What stands for the source behind a script of studies/: `paper.audit`."""
+    dotted = f"studies.{name}"
+    return local(stamp(".snakemake/code", dotted, source_files(dotted)).as_posix())
+
+
 def page_files(*names):
     """Templates behind a page, with what gives all pages their look and their buttons."""
     return [local(os.path.relpath(PACKAGE / "reporting/pages" / name)) for name in (*names, "page.css", "page.js")]

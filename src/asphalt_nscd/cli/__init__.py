@@ -14,6 +14,7 @@ import signal
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from typing import Any, NoReturn
 
 # One core or many must give identical numbers, and jobs run side by side: every step is one thread.
 for _variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"):
@@ -101,13 +102,30 @@ def _say_version(context: click.Context) -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run one step. Exit status 2 with one sentence if input or files cannot be used."""
+    _end(lambda: _run(sys.argv[1:] if arguments is None else arguments))
+
+
+def run_script(job: Any, step: Callable[[Any], object]) -> None:
+    """End as `main` does with a step that a script of the workflow takes; `job` is the script's `snakemake`."""
+    log = os.open(job.log[0], os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+    for stream in (1, 2):
+        os.dup2(log, stream)
+    _end(lambda: _checked(job, step))
+
+
+def _checked(job: Any, step: Callable[[Any], object]) -> None:
+    digests.require_unchanged(map(str, job.input))
+    step(job)
+
+
+def _end(step: Callable[[], object]) -> NoReturn:
     if os.environ.get(WITHIN_WORKFLOW) and sys.platform == "linux":
         # PR_SET_PDEATHSIG: the kernel ends this step when Snakemake dies, however it dies.
         prctl_set_death_signal = 1
         ctypes.CDLL(None).prctl(prctl_set_death_signal, signal.SIGTERM)
     # Modules that are being loaded hold no garbage, and most steps load little else.
     gc.set_threshold(100_000, 50, 100)
-    sys.exit(_status(lambda: _run(sys.argv[1:] if arguments is None else arguments)))
+    sys.exit(_status(step))
 
 
 def _run(arguments: list[str]) -> None:

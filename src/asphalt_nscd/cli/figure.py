@@ -14,7 +14,10 @@ def command(
     output_stem: Path = option("Path without .pdf, .png, .svg."),
 ) -> None:
     """Draw figure NAME from DATA, each kind=path, as PDF, PNG and SVG."""
+    from asphalt_nscd.reporting.figures import SEVERAL
     from asphalt_nscd.reporting.figures.save import save_figure
 
-    draw = _data.part("reporting.figures", name).draw
+    module, *of = SEVERAL.get(name, [name])
+    drawn = _data.part("reporting.figures", module)
+    draw = drawn.figure_of(*of) if of else drawn.draw
     save_figure(_data.made_from(data, draw), output_stem)

@@ -1,1 +1,1 @@
-"""From results to what a reader sees: figures, tables, pages, the audit of the paper."""
+"""From results to what a reader sees: figures, tables, pages."""

@@ -19,19 +19,19 @@ from typing import Any
 from asphalt_nscd.files.store import atomic_path
 
 PACKAGE = Path(__file__).resolve().parents[1]
+STUDIES: list[Path] = []  # the folder of studies/, from where the workflow knows that it stands
 
 
-def source_files(*modules: str | Path) -> list[Path]:
-    """Files of `modules` (dotted, relative to the package) and of all they import from it, sorted.
-
-    A path is a script outside the package: what it imports from its own folder, by the folder's name, counts too.
+def source_files(*modules: str) -> list[Path]:
+    """Files of `modules` (dotted, relative to the package, or in studies) and of all they import from both, sorted.
 
     Imports inside functions count. A package's `__init__.py` counts only where it is itself imported.
     """
     found: set[Path] = set()
     waiting = []
     for module in modules:
-        file = module if isinstance(module, Path) else _file(("asphalt_nscd", *module.split(".")))
+        parts = tuple(module.split("."))
+        file = _file(parts if parts[0] == "studies" else ("asphalt_nscd", *parts))
         if file is None:
             raise ValueError(f"no module asphalt_nscd.{module}")
         waiting.append(file)
@@ -101,7 +101,7 @@ class _Source:
     """What a source file means and needs."""
 
     meaning: str  # digest of its syntax tree without docstrings
-    imported: frozenset[Path]  # of this package
+    imported: frozenset[Path]  # of this package, and of studies
 
 
 @cache
@@ -115,17 +115,13 @@ def _read(path: Path, mtime_ns: int) -> _Source:
         found = _parse(path, content)
         parsed[place] = entry = [_seal(content, found), *found]
     _, meaning, imports = entry
-    files = (
-        _file(tuple(name.split(".")), path) or _file(tuple(base.split(".")), path) for name, base in imports
-    )
+    files = (_file(tuple(name.split("."))) or _file(tuple(base.split("."))) for name, base in imports)
     return _Source(meaning, frozenset(file for file in files if file is not None))
 
 
 def _parse(path: Path, content: bytes) -> list[Any]:
     """Digest of the syntax tree without docstrings; names that may be modules, each with what else it may be."""
-    within = path.is_relative_to(PACKAGE)
-    package = ("asphalt_nscd", *path.relative_to(PACKAGE).parent.parts) if within else ()
-    ours = ("asphalt_nscd",) if within else ("asphalt_nscd", path.parent.name)
+    package = ("asphalt_nscd", *Path(_place(path)).parent.parts)
     imports: set[tuple[str, str]] = set()
     tree = ast.parse(content)
     for node in ast.walk(tree):
@@ -139,6 +135,7 @@ def _parse(path: Path, content: bytes) -> list[Any]:
             base += tuple((node.module or "").split(".")) if node.module else ()
             imports.update((".".join((*base, name.name)), ".".join(base)) for name in node.names)
     meaning = hashlib.sha256(ast.dump(tree, annotate_fields=False).encode()).hexdigest()
+    ours = ("asphalt_nscd", "studies")
     return [meaning, sorted([name, base] for name, base in imports if name.startswith(ours))]
 
 
@@ -181,20 +178,18 @@ def _keep_parsed(kept: Path, parsed: dict[str, Any], before: str) -> None:
             temporary.unlink(missing_ok=True)
 
 
-def _place(path: Path) -> str:
-    """Where a source file lies, seen from the package."""
-    return Path(os.path.relpath(path, PACKAGE)).as_posix()
-
-
-def _file(module: tuple[str, ...], importer: Path = PACKAGE) -> Path | None:
-    """File of a dotted module name; None if it is neither of this package nor of the folder of a script."""
-    if module[:1] == ("asphalt_nscd",):
-        place = PACKAGE.joinpath(*module[1:])
-    elif module[:1] == (importer.parent.name,):
-        place = importer.parents[1].joinpath(*module)
-    else:
-        return None
-    for path in (place.with_suffix(".py"), place / "__init__.py"):
-        if path.is_file():
-            return path
+def _file(module: tuple[str, ...]) -> Path | None:
+    """File of a dotted module name; None if it is a module neither of this package nor of studies."""
+    homes = {"asphalt_nscd": [PACKAGE], "studies": STUDIES}.get(module[0], [])
+    for place in (home.joinpath(*module[1:]) for home in homes):
+        for path in (place.with_suffix(".py"), place / "__init__.py"):
+            if path.is_file():
+                return path
     return None
+
+
+def _place(path: Path) -> str:
+    """A source file by its place in the package or in studies, which is the same in each copy."""
+    if path.is_relative_to(PACKAGE):
+        return path.relative_to(PACKAGE).as_posix()
+    return "/".join(path.parts[-3:])

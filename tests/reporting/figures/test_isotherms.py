@@ -8,7 +8,9 @@ import pytest
 from tiny_results import LAWS, modulus
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.reporting.figures import fig09, fig10
+from asphalt_nscd.reporting.figures.isotherms import figure_of
+
+fig09, fig10 = figure_of("E_MPa"), figure_of("phase_deg")
 
 
 def legend_of(figure):
@@ -25,7 +27,7 @@ def points_of(axes):
 
 
 def test_one_law_line_and_two_sets_of_points_per_temperature(results):
-    figure = fig09.draw(
+    figure = fig09(
         simulations=results.simulations(), measured=results.measured(), laws=results.laws(0.0, 20.0)
     )
     (axes,) = figure.axes
@@ -38,7 +40,7 @@ def test_one_law_line_and_two_sets_of_points_per_temperature(results):
 
 def test_points_are_means_over_samples_with_standard_deviations(results):
     simulations = results.simulations(samples=("s1", "s2"), ratios={"s1": 1.0, "s2": 1.2}.get)
-    figure = fig09.draw(simulations=simulations, measured=results.measured(), laws=results.laws(0.0, 20.0))
+    figure = fig09(simulations=simulations, measured=results.measured(), laws=results.laws(0.0, 20.0))
     bars = figure.axes[0].containers[1]  # of 0 degC, simulated
     expected = np.array([modulus(LAWS[0.0], f)[0] / 1e3 for f in (3.0, 10.0, 40.0)])
     assert bars[0].get_ydata() == pytest.approx(1.1 * expected, rel=1e-9)
@@ -49,7 +51,7 @@ def test_points_are_means_over_samples_with_standard_deviations(results):
 
 
 def test_law_line_is_the_law(results):
-    figure = fig10.draw(
+    figure = fig10(
         simulations=results.simulations(), measured=results.measured(), laws=results.laws(0.0, 20.0)
     )
     (axes,) = figure.axes
@@ -59,7 +61,7 @@ def test_law_line_is_the_law(results):
     assert axes.get_ylabel() == "phase angle (°)"
 
 
-@pytest.mark.parametrize("draw", [fig09.draw, fig10.draw])
+@pytest.mark.parametrize("draw", [fig09, fig10])
 @pytest.mark.parametrize("origin", ["reconstructed", "measured", "synthetic"])
 def test_legend_says_what_the_measurements_are(results, draw, origin):
     data = {"simulations": results.simulations(), "laws": results.laws(0.0, 20.0)}
@@ -70,7 +72,7 @@ def test_legend_says_what_the_measurements_are(results, draw, origin):
 
 
 def test_one_sample_and_one_specimen_have_no_bars(results):
-    figure = fig09.draw(
+    figure = fig09(
         simulations=results.simulations(), measured=results.measured(specimens=("A",)), laws=results.laws(0.0)
     )
     assert all(not bars.has_yerr for bars in figure.axes[0].containers)
@@ -79,7 +81,7 @@ def test_one_sample_and_one_specimen_have_no_bars(results):
 
 def test_many_frequencies_without_laws(results):
     simulations = results.simulations(frequencies=np.geomspace(0.1, 30.0, 20))
-    figure = fig10.draw(simulations=simulations, measured=results.measured("measured"), laws=[])
+    figure = fig10(simulations=simulations, measured=results.measured("measured"), laws=[])
     figure.draw_without_rendering()
     labels = [label.get_text() for label in figure.axes[0].get_xticklabels()]
     assert "1" in labels and len(labels) < 8
@@ -88,7 +90,7 @@ def test_many_frequencies_without_laws(results):
 
 def test_measurements_at_other_frequencies_are_within_the_axes(results):
     simulations = results.simulations(frequencies=(6.0, 10.0))
-    figure = fig09.draw(simulations=simulations, measured=results.measured(), laws=results.laws(0.0))
+    figure = fig09(simulations=simulations, measured=results.measured(), laws=results.laws(0.0))
     low, high = figure.axes[0].get_xlim()
     assert low < 3.0 and high > 40.0
 
@@ -97,11 +99,11 @@ def test_temperature_without_measurement_is_drawn_without(results):
     (measured,) = results.measured()
     table = pd.read_csv(measured)
     table[table["temperature_C"] == 0.0].to_csv(measured, index=False)
-    figure = fig09.draw(simulations=results.simulations(), measured=[measured], laws=results.laws(0.0))
+    figure = fig09(simulations=results.simulations(), measured=[measured], laws=results.laws(0.0))
     sizes = [len(line.get_xdata()) for line in points_of(figure.axes[0])["open"]]
     assert sizes == [3, 0]
     table.assign(temperature_C=table["temperature_C"] + 55.0).to_csv(measured, index=False)
-    figure = fig09.draw(simulations=results.simulations(), measured=[measured], laws=results.laws(0.0))
+    figure = fig09(simulations=results.simulations(), measured=[measured], laws=results.laws(0.0))
     assert legend_of(figure) == ["simulated, one sample", "Burgers law of the bonds"]
 
 
@@ -109,4 +111,4 @@ def test_table_without_a_column_is_refused(results, tmp_path):
     (path,) = results.simulations()
     path.write_text(path.read_text().replace("E_law_MPa", "law"))
     with pytest.raises(InputError, match="column 'E_law_MPa' is missing"):
-        fig09.draw(simulations=[path], measured=results.measured(), laws=[])
+        fig09(simulations=[path], measured=results.measured(), laws=[])

@@ -16,8 +16,8 @@ from asphalt_nscd.reporting.figures import (
     fig_mapping,
     fig_packing,
     fig_ratio,
-    fig_readings,
 )
+from studies.paper import fig_readings
 
 CYLINDER = {"d_mm": 20, "h_mm": 60, "mass_kg": 0.04, "mobile_mass_kg": 0}
 

@@ -8,9 +8,9 @@ import pytest
 from tiny_results import LAWS, modulus
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.reporting.figures import fig11, fig12, fig13, fig14
+from asphalt_nscd.reporting.figures import SEVERAL, sensitivity
 
-PARAMETERS = {"Em": fig11, "eta_m": fig12, "Ek": fig13, "eta_k": fig14}
+PARAMETERS = [of for module, of in SEVERAL.values() if module == "sensitivity"]
 FIELDS = {"Em": "modulus_m", "eta_m": "viscosity_m", "Ek": "modulus_k", "eta_k": "viscosity_k"}
 
 
@@ -32,7 +32,7 @@ def inputs(results, parameters=("Em",), factors=(0.5, 1.5)):
 
 @pytest.mark.parametrize("parameter", PARAMETERS)
 def test_lines_are_the_law_with_this_parameter_changed(results, parameter):
-    figure = PARAMETERS[parameter].draw(**inputs(results, PARAMETERS))
+    figure = sensitivity.figure_of(parameter)(**inputs(results, PARAMETERS))
     for axes, column in zip(figure.axes, (0, 1), strict=True):
         laws = [line for line in axes.lines if len(line.get_xdata()) > 3]
         field, scale = FIELDS[parameter], (1e-3, 1.0)[column]
@@ -42,7 +42,7 @@ def test_lines_are_the_law_with_this_parameter_changed(results, parameter):
 
 
 def test_points_labels_and_units(results):
-    figure = fig11.draw(**inputs(results))
+    figure = sensitivity.figure_of("Em")(**inputs(results))
     left, right = figure.axes
     assert left.get_ylabel() == "|E*| (GPa)" and right.get_ylabel() == "phase angle (°)"
     drawn = [bars[0] for bars in left.containers if bars[0].get_markerfacecolor() != "white"]
@@ -56,7 +56,7 @@ def test_points_labels_and_units(results):
 
 def test_parameter_that_was_not_varied_is_refused(results):
     with pytest.raises(InputError, match="no test with another eta_k"):
-        fig14.draw(**inputs(results))
+        sensitivity.figure_of("eta_k")(**inputs(results))
 
 
 def test_temperature_without_simulation_is_refused(results):
@@ -65,4 +65,4 @@ def test_temperature_without_simulation_is_refused(results):
         data["laws"][0].read_text().replace('"temperature_C": 20.0', '"temperature_C": 5.0')
     )
     with pytest.raises(InputError, match="no test at 5 degC"):
-        fig11.draw(**data)
+        sensitivity.figure_of("Em")(**data)

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.forecasting.forecast import Settings, modulus_of
-from forecast.blind import (
+from studies.forecast.blind import (
     AtPoints,
     crossover_of,
     errors,
@@ -16,7 +16,7 @@ from forecast.blind import (
     recipe_of_row,
     shear_modulus,
 )
-from forecast.differential import differential
+from studies.forecast.differential import differential
 
 ROW = {
     "mix": 7,

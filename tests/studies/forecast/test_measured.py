@@ -11,8 +11,8 @@ from scipy.stats import f
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.forecast import Settings, forecast, modulus_of
 from asphalt_nscd.forecasting.recipe import read_recipe
-from forecast.mixes import bands, best_map, binder_shift, decades_slower, measured_map, read_pairs
-from forecast.voids import compare_voids
+from studies.forecast.mixes import bands, best_map, binder_shift, decades_slower, measured_map, read_pairs
+from studies.forecast.voids import compare_voids
 
 
 @pytest.fixture(scope="module")
@@ -59,7 +59,7 @@ def test_no_map_fits_warm_and_hot_mixes(pairs):
     """At equal modulus of the binder the mixes differ: the best map of the hot ones misses the warm ones."""
 
     def worst(of, on):
-        from forecast.mixes import _any_map
+        from studies.forecast.mixes import _any_map
 
         weights = best_map([pair for pair in pairs if pair.name[0] == of])
         return max(

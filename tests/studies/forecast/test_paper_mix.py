@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from forecast.paper_mix import EXPONENT, compare_paper, softening_point, stiffness
+from studies.forecast.paper_mix import EXPONENT, compare_paper, softening_point, stiffness
 
 
 def test_a_point_by_hand():

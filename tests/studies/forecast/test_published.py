@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.forecasting.forecast import MODEL
-from forecast.blind import overall
+from studies.forecast.blind import overall
 
 ROOT = Path(__file__).parents[3]
 OVERALL = pd.read_csv(ROOT / "results/published/forecast/mixes/overall.csv").set_index("forecast")

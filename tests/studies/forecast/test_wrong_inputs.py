@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from forecast import wrong_inputs
-from forecast.wrong_inputs import (
+from studies.forecast import wrong_inputs
+from studies.forecast.wrong_inputs import (
     along_reference,
     changed,
     changes_of,

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pandas as pd
 import pytest
+from judgements import by_id, judgement
 
-from asphalt_nscd.reporting.audit import preparation
-from asphalt_nscd.reporting.audit.statement import DIFFERS, LEFT_OPEN, REPRODUCED, UNCHECKED
-from asphalt_nscd.reporting.tables.bond_readings import AFTER, BARYCENTRES, MEAN_RADIUS, OURS
+from studies.paper import outcomes
+from studies.paper.bond_readings import AFTER, BARYCENTRES, MEAN_RADIUS, OURS
+from studies.paper.finding import DIFFERS, LEFT_OPEN, REPRODUCED, UNCHECKED
 
 
 def judged(said=1.1, allowed=1.0):
@@ -25,7 +26,7 @@ def judged(said=1.1, allowed=1.0):
             "possible": [False, False, True, False, False],
         }
     )
-    return {row.id: row for row in preparation.bonds(table)}
+    return by_id(outcomes.bonds(table))
 
 
 def test_each_reading_stands_beside_that_of_the_study():
@@ -52,4 +53,5 @@ def test_the_poisson_ratio_is_that_of_a_network_and_not_the_printed_one():
 
 @pytest.mark.parametrize(("gap", "verdict"), [(3e-5, UNCHECKED), (-1e-9, REPRODUCED)])
 def test_contacts_count_only_where_a_gap_closes(gap, verdict):
-    assert preparation.contacts(pd.DataFrame({"smallest_gap_m": [1e-4, gap]})).verdict == verdict
+    row = judgement(outcomes.contacts(pd.DataFrame({"smallest_gap_m": [1e-4, gap]})))
+    assert row.verdict == verdict and ("Not exercised" in row.evidence) == (gap > 0)

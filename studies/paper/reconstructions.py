@@ -1,13 +1,12 @@
 """What Table 4 says of the reconstructed measurements: drawn many times, and held against it without any simulation."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.cli import run_script
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.reporting.tables.table4 import read_errors
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.reconstruct import fit_published
@@ -18,19 +17,18 @@ FACTOR = 2.0  # of the printed error
 USUAL = Sampling(seed=0)
 
 
-def make(laws: list[Path], errors: list[Path]) -> pd.DataFrame:
+def make(laws: str | Path, errors: str | Path) -> pd.DataFrame:
     """One row for each temperature: errors of Table 3's laws against draws of `reconstruct`, in percent.
 
     smooth_law: against the law behind them, without scatter; lowest, highest: bounds of 95 % of DRAWS draws; above:
     share of draws with a larger error than printed; within: share that lies within a FACTOR of the printed error at
     every temperature, the same in each row.
     """
-    table3 = the_only(laws, "laws")
-    temperatures, published = read_published(table3)
-    printed = read_errors(the_only(errors, "errors")).set_index("temperature_C").loc[temperatures]
+    temperatures, published = read_published(laws)
+    printed = read_errors(errors).set_index("temperature_C").loc[temperatures]
     omega = 2.0 * np.pi * np.array(FREQUENCIES)
     known = np.log(np.array([law.complex_modulus(omega) for law in published]))
-    law = fit_published(table3)[1].law
+    law = fit_published(laws)[1].law
     smooth = np.log(np.array([law.complex_modulus(omega, t) for t in temperatures]))
     table = pd.DataFrame({"temperature_C": temperatures})
     drawn = [_missed(known, smooth + _scatter(seed, smooth.shape)) for seed in range(DRAWS)]
@@ -66,3 +64,9 @@ def _scatter(seed: int, shape: tuple[int, ...]) -> np.ndarray:
     level = USUAL.specimen_scatter * random.standard_normal()
     norm, phase = random.standard_normal((2, *shape))
     return (level + USUAL.modulus_scatter * norm + 1j * np.radians(USUAL.phase_scatter_deg) * phase) / of_mean
+
+
+if __name__ == "__main__":
+    run_script(
+        globals()["snakemake"], lambda job: write_table(job.output[0], make(job.input.laws, job.input.errors))
+    )

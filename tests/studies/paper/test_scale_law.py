@@ -5,7 +5,7 @@ import pytest
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import read_law, write_law
-from asphalt_nscd.rheology.scaled_laws import scale_law
+from studies.paper.scale_law import scale_law
 
 LAW = Burgers(2.02e10, 1.79e9, 2.72e10, 4.61e8)
 

@@ -17,7 +17,7 @@ from scipy.optimize import minimize
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.rivals import rivals
-from asphalt_nscd.rheology.smooth_bounds import Printed, log_slopes
+from studies.paper.smooth_bounds import Printed, log_slopes
 
 Vector = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -8,16 +8,16 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor
-from asphalt_nscd.specimen.bond_readings import (
+from asphalt_nscd.specimen.network import Network, bond_network
+from asphalt_nscd.specimen.prism import static_ratio
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.specimen.trimming import Specimen
+from studies.paper.other_bonds import (
     crossing,
     farther_plates,
     ratio_without_moments,
     with_mean_radius,
 )
-from asphalt_nscd.specimen.network import Network, bond_network
-from asphalt_nscd.specimen.prism import static_ratio
-from asphalt_nscd.specimen.system import bending_system
-from asphalt_nscd.specimen.trimming import Specimen
 
 
 def test_without_moments_nothing_turns(beam):

@@ -1,10 +1,9 @@
 """The sensitivity study: one parameter of the bond law changed at a time."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
+from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_json
 
@@ -31,3 +30,12 @@ def scale_law(law: str | Path, parameter: str, factor: float, output: str | Path
     content["scaled"] = {"parameter": parameter, "factor": factor}
     write_json(output, content)
     return content
+
+
+if __name__ == "__main__":
+    run_script(
+        globals()["snakemake"],
+        lambda job: scale_law(
+            job.input.law, job.wildcards.parameter, float(job.wildcards.factor), job.output[0]
+        ),
+    )

@@ -1,20 +1,19 @@
 """|E*| over that of the law at each temperature, with the strength of 2.7 MPa and without, under two readings."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.reporting.tables.bond_readings import OURS
+from asphalt_nscd.cli import run_script
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.reporting.tables.table4 import read_errors
+from studies.paper.bond_readings import OURS
 
 LIKELIEST = "dmin after the reduction of volume, looser layer"
 
 
-def make(simulations: list[Path], likely: list[Path], errors: list[Path]) -> pd.DataFrame:
+def make(simulations: str | Path, likely: str | Path, errors: str | Path) -> pd.DataFrame:
     """One row for each reading and temperature.
 
     simulations: the tests of the study; likely: those of one of its samples, packed and bonded as the authors most
@@ -23,11 +22,8 @@ def make(simulations: list[Path], likely: list[Path], errors: list[Path]) -> pd.
     all; expected: of all samples, where the reading was tested in one. allowed: whether the authors' mean of as many
     samples could be one within the printed error and twice both standard errors, as in bond_readings.csv.
     """
-    printed = read_errors(the_only(errors, "errors")).set_index("temperature_C")["mre_E_percent"]
-    ours, theirs = (
-        _with_ratio(the_only(paths, name))
-        for paths, name in ((simulations, "simulations"), (likely, "likely"))
-    )
+    printed = read_errors(errors).set_index("temperature_C")["mre_E_percent"]
+    ours, theirs = _with_ratio(simulations), _with_ratio(likely)
     by_sample = ours.groupby("specimen")["ratio"].mean()
     several = len(by_sample) > 1
     error = 100.0 * by_sample.std() / np.sqrt(len(by_sample)) if several else 0.0
@@ -56,6 +52,15 @@ def make(simulations: list[Path], likely: list[Path], errors: list[Path]) -> pd.
     return pd.DataFrame(rows)
 
 
-def _with_ratio(path: Path) -> pd.DataFrame:
+def _with_ratio(path: str | Path) -> pd.DataFrame:
     tests = pd.read_csv(path)
     return tests.assign(ratio=tests["E_MPa"] / tests["E_law_MPa"])
+
+
+if __name__ == "__main__":
+    run_script(
+        globals()["snakemake"],
+        lambda job: write_table(
+            job.output[0], make(job.input.simulations, job.input.likely, job.input.errors)
+        ),
+    )

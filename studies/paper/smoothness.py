@@ -1,22 +1,21 @@
 """Can smooth data have Table 3 as their Burgers fit and Table 4 as its errors? Bounds, temperature by temperature."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.cli import run_script
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.reporting.tables.table4 import read_errors
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.sampling import FREQUENCIES
-from asphalt_nscd.rheology.smooth_bounds import Printed, least_scatter, phase_error
+from studies.paper.smooth_bounds import Printed, least_scatter, phase_error
 
 WEIGHTS = (0.3, 1.0, 2.0, 10.0)  # of the phase in the fit; the paper does not say what it minimised
 
 
-def make(laws: list[Path], errors: list[Path]) -> pd.DataFrame:
+def make(laws: str | Path, errors: str | Path) -> pd.DataFrame:
     """One row for each weight and temperature, in percent.
 
     phase_weight: of the phase in the fit, relative to that of ln|E*|. smallest, largest: errors of the phase that
@@ -26,7 +25,7 @@ def make(laws: list[Path], errors: list[Path]) -> pd.DataFrame:
     """
     rows = []
     for weight in WEIGHTS:
-        for temperature, one in printed(the_only(laws, "laws"), the_only(errors, "errors"), weight):
+        for temperature, one in printed(laws, errors, weight):
             rows.append(
                 {
                     "phase_weight": weight,
@@ -41,7 +40,7 @@ def make(laws: list[Path], errors: list[Path]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def printed(laws: Path, errors: Path, weight: float = 1.0) -> list[tuple[float, Printed]]:
+def printed(laws: str | Path, errors: str | Path, weight: float = 1.0) -> list[tuple[float, Printed]]:
     """Temperature [degC] of each law of Table 3, with the errors of Table 4 at the frequencies of the paper."""
     temperatures, burgers = read_published(laws)
     missed = read_errors(errors).set_index("temperature_C").loc[temperatures] / 100.0
@@ -52,3 +51,9 @@ def printed(laws: Path, errors: Path, weight: float = 1.0) -> list[tuple[float, 
             temperatures, burgers, missed["mre_E_percent"], missed["mre_phase_percent"], strict=True
         )
     ]
+
+
+if __name__ == "__main__":
+    run_script(
+        globals()["snakemake"], lambda job: write_table(job.output[0], make(job.input.laws, job.input.errors))
+    )

@@ -6,16 +6,16 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from asphalt_nscd.reporting.tables.smoothness import printed
 from asphalt_nscd.rheology.burgers import Burgers
-from asphalt_nscd.rheology.consistent import draws, nearest
 from asphalt_nscd.rheology.fitting import fit_burgers
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
-from asphalt_nscd.rheology.smooth_bounds import Printed, least_scatter, log_slopes, phase_error
 from asphalt_nscd.rheology.spectrum import parameters
+from studies.paper.consistent import draws, nearest
+from studies.paper.smooth_bounds import Printed, least_scatter, log_slopes, phase_error
+from studies.paper.smoothness import printed
 
-PAPER = Path(__file__).parents[2] / "data/paper"
+PAPER = Path(__file__).parents[3] / "data/paper"
 OMEGA = 2.0 * np.pi * np.array([3.0, 6.0, 10.0, 25.0, 40.0])
 SMOOTH = TwoS2P1D(30e6, 36e9, k=0.2, h=0.58, delta=2.2, tau=0.06, beta=250.0, shift=WLF(12.0, 90.0, 15.0))
 

@@ -7,17 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
+from judgements import by_id, judgement
 
-from asphalt_nscd.reporting.audit import outcomes, preparation
-from asphalt_nscd.reporting.audit.equations import PAPER
-from asphalt_nscd.reporting.audit.statement import (
-    DIFFERS,
-    HOLDS,
-    INCONSISTENT,
-    LEFT_OPEN,
-    REPRODUCED,
-    UNCHECKED,
-)
+from asphalt_nscd.measurements.twopoint import PAPER
+from studies.paper import outcomes
+from studies.paper.finding import DIFFERS, HOLDS, INCONSISTENT, LEFT_OPEN, REPRODUCED, UNCHECKED
 
 COUNTS = np.array([2, 4, 6.3, 8, 10]) * 1e-3, np.array([11798, 1588, 492, 211, 71])
 
@@ -43,10 +37,6 @@ PACKING = pd.DataFrame(
 )
 
 
-def by_id(rows):
-    return {row.id: row for row in rows}
-
-
 def test_ratio_and_its_dependence_on_the_packing():
     rows = by_id(outcomes.laws_and_samples(some_tests(), PACKING))
     ratio = rows["macro_is_micro"]
@@ -61,7 +51,7 @@ def test_ratio_and_its_dependence_on_the_packing():
 
 def test_facets_stand_beside_and_are_not_counted_among_the_packings():
     both = pd.concat([PACKING.assign(mapping="paper"), PACKING.assign(mapping="facets", E_MPa=1.001)])
-    ratio, *_ = outcomes.laws_and_samples(some_tests(), both, some_tests(ratio=1.0))
+    ratio = by_id(outcomes.laws_and_samples(some_tests(), both, some_tests(ratio=1.0)))["macro_is_micro"]
     assert "Bonds that are facets give 1.000 in" in ratio.evidence
     assert "1.100 at 0.680" in ratio.evidence and "1.001" not in ratio.evidence
 
@@ -111,8 +101,8 @@ def test_an_error_that_the_paper_prints_is_no_number_of_ours():
 
 def test_peaks_are_held_against_the_harmonic_fit():
     tests = some_tests().assign(E_peak_MPa=lambda t: t["E_MPa"], phase_peak_deg=10.02)
-    assert outcomes.reduction(tests).verdict == REPRODUCED
-    assert outcomes.reduction(tests.assign(phase_peak_deg=10.8)).verdict == DIFFERS
+    assert judgement(outcomes.reduction(tests)).verdict == REPRODUCED
+    assert judgement(outcomes.reduction(tests.assign(phase_peak_deg=10.8))).verdict == DIFFERS
 
 
 def test_an_overtone_is_no_sinusoid():
@@ -121,7 +111,7 @@ def test_an_overtone_is_no_sinusoid():
 
     def found(force):
         arrays = {"time_s": time, "displacement_m": 0.0 * time, "force_N": force}
-        return outcomes.waveform(SimpleNamespace(arrays=arrays, attributes={"frequency_Hz": 10.0}))
+        return judgement(outcomes.waveform(SimpleNamespace(arrays=arrays, attributes={"frequency_Hz": 10.0})))
 
     pure, bent = found(force), found(force + 0.3 * np.cos(2 * np.pi * 30 * time))
     assert pure.ours == pytest.approx(0.0, abs=1e-6) and pure.verdict == REPRODUCED
@@ -143,7 +133,7 @@ def test_time_step_matters_only_where_gauss_seidel_stops():
 def test_the_audit_holds_no_time_that_differs_from_run_to_run():
     tests, table, stopped = time_steps()
     one, two = (list(outcomes.numerics(tests, table, stopped.assign(cpu_s=cpu))) for cpu in (1.0, 1.7))
-    assert one == two and one[-1].verdict == UNCHECKED
+    assert one == two and judgement(one[-1]).verdict == UNCHECKED
     slow = list(outcomes.numerics(tests, table, stopped.assign(cpu_s=3000.0)))
     assert one[-1].ours == "less than a tenth of it" and slow[-1].ours == "a tenth of it or more"
 
@@ -177,9 +167,9 @@ def test_a_profile_is_held_against_the_beam(bulge, verdict):
 
 
 def test_counts_that_contradict_each_other():
-    row = preparation.lattice(COUNTS[1])
+    row = judgement(outcomes.lattice(COUNTS[1]))
     assert (row.published, row.ours, row.verdict) == (8000, 14160, INCONSISTENT)
-    rows = by_id(preparation.samples([DEPOSIT], [SPECIMEN], [0.95]))
+    rows = by_id(outcomes.samples([DEPOSIT], [SPECIMEN], [0.95]))
     assert "so 9558 of" in rows["particles_kept"].evidence
     assert rows["particles_kept"].verdict == rows["density"].verdict == INCONSISTENT
 
@@ -197,7 +187,7 @@ SPECIMEN = {"spheres": 9500, "density": 3850.0}
 
 
 def test_reduced_study_checks_no_layer():
-    rows = by_id(preparation.samples([DEPOSIT | {"spheres": 890}], [SPECIMEN], [0.95]))
+    rows = by_id(outcomes.samples([DEPOSIT | {"spheres": 890}], [SPECIMEN], [0.95]))
     assert {rows[name].verdict for name in ("segregation", "layer", "top_layers")} == {UNCHECKED}
 
 
@@ -206,10 +196,8 @@ def test_reduced_study_checks_no_layer():
     [({"layer_height_m": 0.0629}, "layer"), ({"poured_segregation": 0.3}, "segregation"), ({}, "top_layers")],
 )
 def test_a_layer_is_judged_by_its_height_its_grains_and_how_deep_it_moved(changed, row):
-    good = by_id(preparation.samples([DEPOSIT, DEPOSIT], [SPECIMEN], [0.95, 0.95]))
-    bad = by_id(
-        preparation.samples([DEPOSIT, DEPOSIT | changed], [SPECIMEN], [0.95, 0.95 if changed else 0.8])
-    )
+    good = by_id(outcomes.samples([DEPOSIT, DEPOSIT], [SPECIMEN], [0.95, 0.95]))
+    bad = by_id(outcomes.samples([DEPOSIT, DEPOSIT | changed], [SPECIMEN], [0.95, 0.95 if changed else 0.8]))
     names = ("layer", "segregation", "top_layers")
     assert {good[name].verdict for name in names} == {REPRODUCED}
     assert {name for name in names if bad[name].verdict == DIFFERS} == {row}
@@ -218,11 +206,11 @@ def test_a_layer_is_judged_by_its_height_its_grains_and_how_deep_it_moved(change
 @pytest.mark.parametrize(("lift", "verdict"), [(0.049, REPRODUCED), (0.08, UNCHECKED), (-0.12, DIFFERS)])
 def test_what_size_alone_lifts_is_no_segregation(lift, verdict):
     """4 mm, the difference of the radii, are 0.063 of this layer."""
-    rows = by_id(preparation.samples([DEPOSIT | {"poured_segregation": lift}], [SPECIMEN], [0.95]))
+    rows = by_id(outcomes.samples([DEPOSIT | {"poured_segregation": lift}], [SPECIMEN], [0.95]))
     assert rows["segregation"].verdict == verdict and "up to 0.063 can be" in rows["segregation"].evidence
 
 
 def test_what_moves_in_the_upper_half():
     poured = np.array([[0.0, 0.0, 0.01], [0.0, 0.0, 0.06]])
     deposit = {"poured_position": poured, "position": poured + [[0.0, 0.0, -1e-3], [0.0, 3e-3, 0.0]]}
-    assert preparation.moved_above(deposit) == pytest.approx(0.9)
+    assert outcomes.moved_above(deposit) == pytest.approx(0.9)

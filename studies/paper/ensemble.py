@@ -1,34 +1,32 @@
 """What one law for all temperatures gains on data that have Table 3 as their fit and Table 4 as its errors."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.cli import run_script
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.reporting.tables.rivals import KINDS, REFERENCE, errors_of
-from asphalt_nscd.reporting.tables.smoothness import printed
-from asphalt_nscd.rheology.consistent import draws, nearest_law
 from asphalt_nscd.rheology.reconstruct import fit_published
 from asphalt_nscd.rheology.rivals import rivals
+from studies.paper.consistent import draws, nearest_law
+from studies.paper.smoothness import printed
 
 DRAWS = 20
 SEED = 2020
 
 
-def make(laws: list[Path], errors: list[Path]) -> pd.DataFrame:
+def make(laws: str | Path, errors: str | Path) -> pd.DataFrame:
     """One row for each kind of tests: mean relative errors in percent, mean over temperatures.
 
     burgers: of the laws of Table 3, the same on all these data. nearest: of a 2S2P1D law fitted to the data nearest to
     one; mean, lowest, highest: of such laws over DRAWS draws. fitted: errors of what the law was fitted to; each other
     kind: of what was left out, as in rivals.csv.
     """
-    table3 = the_only(laws, "laws")
-    temperatures, known = zip(*printed(table3, the_only(errors, "errors")), strict=True)
+    temperatures, known = zip(*printed(laws, errors), strict=True)
     temperature, omega = np.array(temperatures), known[0].omega
-    smooth = fit_published(table3)[1].law
+    smooth = fit_published(laws)[1].law
     start = np.log(np.array([smooth.complex_modulus(omega, t) for t in temperature]))
     law, distance = nearest_law(known, temperature, start, REFERENCE)
     # The first is the nearest law itself, at no distance from it.
@@ -52,3 +50,9 @@ def make(laws: list[Path], errors: list[Path]) -> pd.DataFrame:
         }
         table = table.assign(**{f"{name}_{quantity}_percent": value for name, value in columns.items()})
     return table.assign(distance_percent=100.0 * distance)
+
+
+if __name__ == "__main__":
+    run_script(
+        globals()["snakemake"], lambda job: write_table(job.output[0], make(job.input.laws, job.input.errors))
+    )

@@ -1,25 +1,24 @@
 """|E*| over that of the law under the readings that the paper's words allow, and which of them its errors allow."""
 
-from __future__ import annotations
-
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.files.store import load
-from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.specimen.bond_readings import (
+from asphalt_nscd.cli import run_script
+from asphalt_nscd.files.store import load, write_table
+from asphalt_nscd.specimen.cutting import read_specimen
+from asphalt_nscd.specimen.prism import static_ratio
+from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.specimen.trimming import Specimen, trim
+from studies.paper.other_bonds import (
     crossing,
     farther_plates,
     ratio_without_moments,
     with_mean_radius,
 )
-from asphalt_nscd.specimen.cutting import read_specimen
-from asphalt_nscd.specimen.prism import static_ratio
-from asphalt_nscd.specimen.system import bending_system
-from asphalt_nscd.specimen.trimming import Specimen, trim
 
 POISSON = 0.35  # of Eqs. (8)-(11)
 PRINTED = 0.0056  # mean relative error of |E*| at -10 degC, Table 4: how near to one the authors' ratio was
@@ -29,28 +28,27 @@ BARYCENTRES, MEAN_RADIUS = "forces at the barycentres, without moments", "mean r
 
 
 def make(
-    deposits: list[Path],
-    specimens: list[Path],
-    simulations: list[Path],
-    packing: list[Path],
-    blocked: list[Path],
+    deposits: Sequence[str | Path],
+    specimens: Sequence[str | Path],
+    tests: Sequence[str | Path],
+    blocked: str | Path,
 ) -> pd.DataFrame:
     """One row for each reading and friction while pouring.
 
     deposits: of all samples, those with more friction behind; specimens: of the samples of the study, in the same
-    order; simulations, packing: tables of the tests, in which our own reading is tested; blocked: a test of the first
-    sample with a head that cannot turn. The other readings are static solutions. samples: how many the ratio
+    order; tests: tables of tests in which our own reading is tested; blocked: a test of the first sample
+    with a head that cannot turn. The other readings are static solutions. samples: how many the ratio
     E_over_law is the mean of. expected: the mean of all samples that a ratio of the first one stands for. possible:
     whether the authors' mean, of as many samples, could be one within the printed error and twice both standard errors.
     """
-    layers = {path.stem: load(path, "deposit") for path in deposits}
+    layers = {Path(path).stem: load(path, "deposit") for path in deposits}
     said = load(specimens[0], "specimen").attributes
     reduction, gap = float(said["volume_reduction"]), float(said["gap_max_m"])
     shrunk = gap * (1.0 - reduction) ** (1.0 / 3.0)
-    names = [path.stem for path in specimens]
+    names = [Path(path).stem for path in specimens]
     loose = [name for name in layers if name not in names]
     first = read_specimen(specimens[0])
-    tested = _tested(simulations, packing)
+    tested = _tested(tests)
     known = tested.loc[names, "ratio"].to_numpy()
 
     def bonded(name: str, reach: float) -> Specimen:
@@ -83,7 +81,7 @@ def make(
         MEAN_RADIUS: _ratio(with_mean_radius(first)),
         # An area goes with the square of rmin.
         "rmin before the reduction of volume": known[0] * (1.0 - reduction) ** (-2.0 / 3.0),
-        "head that cannot turn": _of_test(the_only(blocked, "blocked")),
+        "head that cannot turn": _of_test(blocked),
     }
     rows += [_row(reading, layers[names[0]], [ratio], bonds, whole) for reading, ratio in alone.items()]
     table = pd.DataFrame(rows)
@@ -96,9 +94,9 @@ def make(
     return table
 
 
-def _tested(simulations: list[Path], packing: list[Path]) -> pd.DataFrame:
+def _tested(tables: Sequence[str | Path]) -> pd.DataFrame:
     """|E*| over that of the law (`ratio`) and bonds by sample, of tests with the paper's bonds in which none broke."""
-    tests = pd.concat([pd.read_csv(path) for path in [*simulations, *packing]])
+    tests = pd.concat([pd.read_csv(path) for path in tables])
     if "mapping" in tests:
         tests = tests[tests["mapping"] != "facets"]
     whole = tests[tests["broken_bonds"] == 0]
@@ -125,6 +123,15 @@ def _ratio(specimen: Specimen) -> float:
     return static_ratio(bending_system(specimen, POISSON, np.inf, 0.0), specimen.geometry)
 
 
-def _of_test(path: Path) -> float:
+def _of_test(path: str | Path) -> float:
     test = load(path, "test").attributes
     return float(test["E_MPa"] / test["E_law_MPa"])
+
+
+if __name__ == "__main__":
+    run_script(
+        globals()["snakemake"],
+        lambda job: write_table(
+            job.output[0], make(job.input.deposits, job.input.specimens, job.input.tests, job.input.blocked)
+        ),
+    )

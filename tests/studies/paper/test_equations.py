@@ -5,25 +5,25 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import pytest
+from judgements import by_id
 
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.reporting.audit import equations
-from asphalt_nscd.reporting.audit.statement import DIFFERS, HOLDS, INCONSISTENT, REPRODUCED, compared
 from asphalt_nscd.rheology.burgers import Burgers
+from studies.paper import equations
+from studies.paper.audit import judged
+from studies.paper.finding import DIFFERS, HOLDS, INCONSISTENT, REPRODUCED, Finding
 
 LAWS = {-10.0: Burgers(39.8e9, 62.8e9, 956e9, 14.9e9), 15.0: Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)}
 COUNTS = np.array([2, 4, 6.3, 8, 10]) * 1e-3, np.array([11798, 1588, 492, 211, 71])
 
 
-def by_id(rows):
-    return {row.id: row for row in rows}
-
-
 def test_number_agrees_only_within_its_tolerance():
-    assert compared("", 100.0, 101.0, "", 0.01, "").verdict == REPRODUCED
-    assert compared("", 100.0, 101.0, "", 0.01, "", HOLDS).verdict == HOLDS
-    assert compared("", 100.0, 98.9, "", 0.01, "").verdict == DIFFERS
-    assert compared("", -100.0, 100.0, "", 0.01, "").verdict == DIFFERS
+    def verdict(published, ours, needs="particles"):
+        row = {"id": "", "needs": needs, "published": published, "tolerance": 0.01}
+        return judged(row, Finding("", ours))["verdict"]
+
+    assert verdict(100.0, 101.0) == REPRODUCED and verdict(100.0, 101.0, "text") == HOLDS
+    assert verdict(100.0, 98.9) == verdict(-100.0, 100.0) == DIFFERS
 
 
 def test_form_factor_and_strain_of_the_cantilever():
@@ -61,7 +61,7 @@ def test_compliance_of_the_law_is_that_of_the_bond_and_its_limit_Em():
 @pytest.mark.parametrize(("cold", "verdict"), [(20.0, HOLDS), (200.0, DIFFERS)])
 def test_errors_of_small_phases_are_compared_in_degrees(cold, verdict):
     printed = pd.DataFrame({"temperature_C": [-10.0, 15.0], "mre_phase_percent": [cold, 5.0]})
-    (row,) = equations.table_4(LAWS, printed)
+    row = by_id(equations.table_4(LAWS, printed))["small_numbers"]
     phases = np.degrees(np.angle(LAWS[-10.0].complex_modulus(equations.OMEGA)))
     assert row.ours == pytest.approx(cold / 100 * phases.mean()) and row.verdict == verdict
 

@@ -1,7 +1,5 @@
 """Two readings of the paper that fail: Table 3 in Pa as printed, and a head that cannot rotate."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 
@@ -9,9 +7,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.tables import at_temperature, read_tests
 from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures.save import save_figure
 
 LOOKS = {
     "used": {"color": style.INK, "marker": "o", "zorder": 3},
@@ -62,3 +62,12 @@ def draw(readings: list[Path], simulations: list[Path]) -> Figure:
 def _points(axes: Axes, look: dict[str, Any], rows: pd.DataFrame, values: pd.Series) -> None:
     order = rows["frequency_Hz"].argsort()
     axes.plot(rows["frequency_Hz"].iloc[order], values.iloc[order], lw=0.6, **look)
+
+
+if __name__ == "__main__":
+    run_script(
+        globals()["snakemake"],
+        lambda job: save_figure(
+            draw(job.input.readings, job.input.simulations), job.output[0].removesuffix(".pdf")
+        ),
+    )

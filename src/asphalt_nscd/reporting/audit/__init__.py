@@ -1,1 +1,0 @@
-"""Statements of the paper set beside what we find, each with a verdict and its evidence."""
