@@ -15,8 +15,8 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, read_json, write_table
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.measurements.tables import at_temperature, read_measured
-from asphalt_nscd.reporting.tables import table2
 from asphalt_nscd.reporting.tables.table4 import read_errors
+from asphalt_nscd.reporting.tables.time_steps import EXPLICIT
 from asphalt_nscd.rheology.laws_io import read_law
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.specimen.counts import read_counts
@@ -57,19 +57,20 @@ def findings(paths: Mapping[str, Any]) -> Iterable[Finding]:
     pascal, blocked = _relative(table["readings"], tests)
     diameter, count = read_counts(paths["counts"])
     deposits = [load(path, "deposit") for path in paths["deposits"]]
-    allowed = list(readings.loc[readings["possible"], "expected"])
     facets = pd.read_csv(paths["facets"][0]) if paths["facets"] else None
-    counts, changed = [Path(paths["counts"])], table["sensitivity"]
+    design = pd.read_csv(paths["design"], comment="#")
+    explicit = outcomes.longest_step(table["time_steps"], EXPLICIT)
+    changed = table["sensitivity"]
     return chain(
         equations.laboratory(),
         equations.contact_law(published[15.0]),
-        equations.calibration(published, pascal),
+        equations.calibration(published, pascal, explicit, design),
         equations.table_4(published, read_errors(paths["errors"])),
         equations.typical_numbers(diameter, count, outcomes.DENSITY),
         outcomes.bonds(readings),
         [
             outcomes.lattice(count),
-            outcomes.grading(table2.make([Path(paths["grading"])], counts, counts)),
+            outcomes.grading(pd.read_csv(paths["grading"]), diameter, count),
             outcomes.contacts(tests),
             outcomes.reduction(tests),
             outcomes.waveform(load(paths["waveform"], "test")),
@@ -81,14 +82,8 @@ def findings(paths: Mapping[str, Any]) -> Iterable[Finding]:
         ),
         outcomes.numerics(tests, table["time_steps"], collect(list(map(Path, paths["stopped"])))),
         outcomes.profile(load(paths["profile"], "test").arrays),
-        outcomes.laws_and_samples(tests, table["packing"], facets, allowed),
-        outcomes.agreement(
-            table["table4"],
-            tests,
-            _refit_errors(paths["fitted"], paths["measured"]),
-            list(blocked.values()),
-            allowed,
-        ),
+        outcomes.laws_and_samples(tests, table["packing"], readings, facets, list(blocked.values())),
+        outcomes.agreement(table["table4"], _refit_errors(paths["fitted"], paths["measured"])),
         outcomes.sensitivity(changed, at_temperature(tests, float(changed["temperature_C"].iloc[0]))),
     )
 

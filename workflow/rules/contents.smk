@@ -134,6 +134,7 @@ if AUDIT and SENSITIVITY and PACKING and STEPPING and PRINTED:
     alone = "grading counts errors simulations sensitivity readings bond_readings packing table4 time_steps"
     PAPER_TABLES["audit"] = {
         "statements": shipped("studies/paper/statements.yaml"),
+        "design": shipped("studies/paper/design_moduli.csv"),
         "laws": PAPER_LAWS[0],
         **{kind: files[0] for kind, files in data(alone).items()},
         **data("fitted measured facets deposits specimens"),
