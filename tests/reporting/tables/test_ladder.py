@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from asphalt_nscd.reporting.tables import fracture, ladder, levels, table4
+from asphalt_nscd.reporting.tables import fracture, ladder, table4
 
 HEADER = (
     "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg,E_law_MPa,phase_law_deg,"
@@ -77,36 +77,6 @@ def test_the_likeliest_reading_is_a_rung_below_the_paper_as_we_read_it(data):
     table = ladder.make(**data, likely=data["facets"]).set_index(["rung", "temperature_C"])
     assert list(dict.fromkeys(table.index.get_level_values(0)))[:2] == ["likeliest", "as in the paper"]
     assert table.loc[("likeliest", 0), "mre_E_percent"] == pytest.approx(2.0)
-
-
-def test_levels_with_the_strength_and_without(tmp_path):
-    """Samples of 1.05 and 1.15, one bond of the first broken at 0 degC; the likeliest at 0.99 in the first."""
-    (tmp_path / "ours.csv").write_text(
-        HEADER + "s1,0,3,104,21,100,22,1,90,1.1\ns2,0,3,115,21,100,22,0,90,0.8\n"
-        "s1,20,3,105,41,100,42,0,90,0.2\ns2,20,3,115,41,100,42,0,90,0.2\n"
-    )
-    (tmp_path / "theirs.csv").write_text(
-        HEADER + "s1-friction0.3,0,3,98,21,100,22,2,90,1.2\ns1-friction0.3,20,3,99,41,100,42,0,90,0.2\n"
-    )
-    (tmp_path / "errors.csv").write_text("temperature_C,mre_E_percent,mre_phase_percent\n0,1,9\n20,3,9\n")
-    kinds = {"simulations": "ours", "likely": "theirs", "errors": "errors"}
-    table = levels.make(**{kind: [tmp_path / f"{name}.csv"] for kind, name in kinds.items()})
-    ours, theirs = (rows.set_index("temperature_C") for _, rows in table.groupby("reading", sort=False))
-    assert ours["unbroken"].tolist() == pytest.approx([(1.15 + 1.05 + 1.15) / 3.0] * 2)
-    assert ours["E_over_law"].tolist() == pytest.approx([1.095, 1.10]) and ours["broken_bonds"].tolist() == [
-        1,
-        0,
-    ]
-    by_sample = np.array([1.045, 1.15])
-    assert theirs.loc[20, "expected"] == pytest.approx(0.99 * by_sample.mean() / by_sample[0])
-    # twice both standard errors of two samples: 0.0525 * 2 sqrt(2) = 0.148
-    assert ours["allowed"].tolist() == [True, True]
-    far = tmp_path / "ours.csv"
-    far.write_text(
-        far.read_text().replace(",104,", ",125,").replace(",115,", ",126,").replace(",105,", ",125,")
-    )
-    far = levels.make(**{kind: [tmp_path / f"{name}.csv"] for kind, name in kinds.items()})
-    assert not far["allowed"].iloc[0]
 
 
 def test_fracture_is_counted_for_each_mapping(data):
