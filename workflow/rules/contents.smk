@@ -153,8 +153,6 @@ if FAMILIES:
     TABLES["rivals"] = {"measured": [*MEASURED, *expand(f"{FAMILY}measured.csv", family=FAMILIES)]}
     TABLES["families"] = TABLES["rivals"] | {
         "diagnosis": [DIAGNOSED[0], *expand(f"{FAMILY}diagnosis.json", family=FAMILIES)],
-        "law": [*COMMON_LAW, *expand(f"{FAMILY}law.json", family=FAMILIES)],
-        "specimen": [f"<results>/diagnosis/specimens/{FIRST}.h5"],
         **data("ladder"),
     }
 

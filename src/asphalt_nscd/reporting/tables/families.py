@@ -9,37 +9,30 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
-from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
-from asphalt_nscd.measurements.tables import KEYS, read_measured, the_only
+from asphalt_nscd.measurements.tables import KEYS, read_measured
 from asphalt_nscd.reporting.pages.way import read_ladder
+from asphalt_nscd.reporting.tables.rivals import REFERENCE
 from asphalt_nscd.reporting.tables.table4 import ERRORS
-from asphalt_nscd.rheology.spectrum import Spectrum
-from asphalt_nscd.rheology.spectrum_io import read_spectrum
+from asphalt_nscd.rheology.fitting import fit_burgers
+from asphalt_nscd.rheology.rivals import rivals
 
 OF_LAW = ("relaxation_spectrum", BOND_MAPPING)  # rungs that are no cause in the measurements
 
 
-def make(
-    measured: list[Path],
-    diagnosis: list[Path],
-    law: list[Path],
-    specimen: list[Path],
-    ladder: Sequence[Path] = (),
-) -> pd.DataFrame:
+def make(measured: list[Path], diagnosis: list[Path], ladder: Sequence[Path] = ()) -> pd.DataFrame:
     """One row for each table of measurements: errors as in Table 4 in percent, mean over temperatures.
 
-    measured, diagnosis, law: one file each for a table, in one order, named by the folder of the diagnosis.
-    burgers: a Burgers law fitted at each temperature; law: one 2S2P1D law for all, as the reduced specimen shows it;
-    held_out: each temperature from the others; simulated: the extended tests themselves (ladder, of the first table).
+    measured, diagnosis: one file each for a table, in one order, named by the folder of the diagnosis. burgers: a
+    Burgers law fitted at each temperature; law: one 2S2P1D law for all; both to averages over specimens, norm and phase
+    alike. held_out: each temperature from the others, by the diagnosis; simulated: the extended tests themselves
+    (ladder, of the first table).
     """
-    numerical = read_specimen(the_only(specimen, "specimen"))
     rows = []
-    for number, (table, found, of_all) in enumerate(zip(measured, diagnosis, law, strict=True)):
+    for number, (table, found) in enumerate(zip(measured, diagnosis, strict=True)):
         data, content = read_measured([table]), read_diagnosis([found])
-        fitted = read_spectrum(of_all)
-        shown = mean_relative_error(data, _shown(fitted, numerical, data)).set_index("temperature_C")
+        errors = {name: mean_relative_error(data, law) for name, law in _fitted(data).items()}
         held = _held_out(content)
         row = {
             # The first table is the study's own; the others are called after their folders.
@@ -52,9 +45,9 @@ def make(
         last = read_ladder(ladder) if ladder and not number else None
         for error in ERRORS:
             quantity = error.split("_")[1]
-            row[_name(error, "burgers")] = float(np.mean(list(content["baseline"][error].values())))
-            row[_name(error, "law")] = float(shown[error].mean())
-            row[_name(error, "law_worst")] = float(shown[error].max())
+            row[_name(error, "burgers")] = float(errors["burgers"][error].mean())
+            row[_name(error, "law")] = float(errors["law"][error].mean())
+            row[_name(error, "law_worst")] = float(errors["law"][error].max())
             row[_name(error, "held_out")] = held.get(error, np.nan)
             row[_name(error, "simulated")] = (
                 np.nan if last is None else last.loc[last["rung"] == last["rung"].iloc[-1], error].mean()
@@ -66,13 +59,21 @@ def make(
     return pd.DataFrame(rows)
 
 
-def _shown(law: Spectrum, specimen: NumericalSpecimen, data: pd.DataFrame) -> pd.DataFrame:
-    """|E*| and phase of the specimen with this law at each condition of the data: its steady response."""
-    conditions = data[KEYS].drop_duplicates().reset_index(drop=True)
-    omega = 2.0 * np.pi * conditions["frequency_Hz"].to_numpy()
-    bonds = law.complex_modulus(omega, conditions["temperature_C"].to_numpy())
-    modulus = specimen.apparent_modulus(omega, bonds)
-    return conditions.assign(E_MPa=np.abs(modulus) * 1e-6, phase_deg=np.degrees(np.angle(modulus)))
+def _fitted(data: pd.DataFrame) -> dict[str, pd.DataFrame]:
+    """|E*| and phase of Burgers laws and of one law for all, at each condition of the data."""
+    means = data.groupby(KEYS)[["E_MPa", "phase_deg"]].mean().reset_index()
+    omega, temperature = 2.0 * np.pi * means["frequency_Hz"].to_numpy(), means["temperature_C"].to_numpy()
+    modulus = 1e6 * means["E_MPa"].to_numpy() * np.exp(1j * np.radians(means["phase_deg"].to_numpy()))
+    burgers = np.empty_like(modulus)
+    for value in np.unique(temperature):
+        at = temperature == value
+        burgers[at] = fit_burgers(omega[at], modulus[at]).law.complex_modulus(omega[at])
+    rival = next(rivals(omega, temperature, modulus, REFERENCE))
+    law = rival.modulus(rival.fit(omega, temperature, modulus), omega, temperature)
+    return {
+        name: means.assign(E_MPa=np.abs(fitted) * 1e-6, phase_deg=np.degrees(np.angle(fitted)))
+        for name, fitted in (("burgers", burgers), ("law", law))
+    }
 
 
 def _held_out(content: dict) -> dict[str, float]:
