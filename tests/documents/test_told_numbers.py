@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
+
+from asphalt_nscd.rheology.reconstruct import Sampling
 
 ROOT = Path(__file__).parents[2]
 
@@ -15,6 +19,10 @@ def published(table: str) -> pd.DataFrame:
 
 def page(name: str) -> str:
     return " ".join((ROOT / f"docs/{name}.md").read_text(encoding="utf-8").split())
+
+
+def readme() -> str:
+    return " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
 
 
 def test_a_law_for_each_bond_against_two_other_solutions():
@@ -104,6 +112,35 @@ def test_no_reading_of_the_paper_is_possible_at_its_friction():
         and table.possible.any()
         and "None could be one" in page("results")
     )
+
+
+def test_the_scatter_that_reconciles_tables_3_and_4():
+    table = published("paper/smoothness")
+    least = table.groupby("phase_weight").scatter_percent.max().min()
+    assert len(table.phase_weight.unique()) == 4 and "four weights of the phase" in page("results")
+    told = f"{least:.2f} % of |E\\*| or {np.degrees(least / 100):.2f}°"
+    assert told in page("results") and told in readme()
+    usual = Sampling(seed=0)
+    drawn = [100 * usual.modulus_scatter / 2, usual.phase_scatter_deg / 2]
+    assert usual.specimens == 4 and f"scatters by {drawn[0]:g} % and {drawn[1]:g}°" in page("results")
+
+
+def test_how_stiff_the_mix_of_table_3_is():
+    row = published("paper/audit").set_index("id").loc["level_of_table3"]
+    assert f"[{row.ours} times]" in readme() and f"its |E\\*| is {row.ours} times" in page("results")
+    stiffer = re.search(r"it is (\S+ to \S+) times as stiff", row.evidence)[1]
+    assert f"and {stiffer} times that of a BBME of class 1" in page("results")
+
+
+def test_errors_of_temperatures_that_were_left_out():
+    table = published("paper/families")
+    table = table[table.origin == "measured"]
+    told = [
+        f"{table[f'mre_{q}_held_out_percent'].min():.1f} to {table[f'mre_{q}_held_out_percent'].max():.1f} %"
+        for q in ("E", "phase")
+    ]
+    assert f"errors are {told[0]} of |E\\*| and {told[1]} of the phase" in page("results")
+    assert table.mre_E_simulated_percent.isna().all() and "No measured mix was simulated" in page("results")
 
 
 def test_what_a_percent_of_air_costs():
