@@ -1,6 +1,6 @@
-"""Measurements that were never published, reconstructed from Table 3.
+"""Measurements of which we have no numbers, reconstructed from Table 3.
 
-The paper prints no F0, z0, Psi. What it prints, one Burgers law for each temperature, was fitted to
+The paper plots them, and prints no F0, z0, Psi. What it prints, one Burgers law for each temperature, was fitted to
 them. Here one smooth law (2S2P1D with a WLF shift) is fitted to the points these Burgers laws
 imply, specimens are drawn around it, and Eqs. (1)-(5) are inverted. Table 4 is not used, so the
 distance between these data and the Burgers laws is a prediction of it. The rows say

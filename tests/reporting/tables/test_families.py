@@ -13,7 +13,7 @@ pytestmark = pytest.mark.slow
 
 
 def test_each_law_is_fitted_to_the_averages_of_all_specimens():
-    """Data that are Burgers' at each temperature: these laws meet the average of two specimens, the one law does not."""
+    """Data that are Burgers' at each temperature: these laws meet the averages, the one law does not."""
     frequency = np.array([0.1, 1.0, 10.0])
     frames = []
     for temperature, softer in ((4.0, 1.0), (20.0, 0.3), (40.0, 0.05)):

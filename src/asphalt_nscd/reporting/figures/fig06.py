@@ -62,7 +62,7 @@ def _forces(axes: Axes, records: Sequence[Record], reference: Record) -> None:
         )
     axes.axhline(0.0, color=style.PALE, lw=0.5, zorder=0)
     largest = max(np.abs(last_cycle(record)[2]).max() for record in records) / scale
-    axes.set(xlabel="time in the last cycle (ms)", ylabel="force over solved amplitude")
+    axes.set(xlabel="time from rest (ms)", ylabel="force over solved amplitude")
     # Room for the legend below the curves, which fill the rest.
     axes.set_ylim(-2.4 * largest, 1.15 * largest)
     axes.legend(title="$dt$", loc="lower left", title_fontsize=7.0, borderpad=0.1, handlelength=1.5)
