@@ -105,7 +105,7 @@ if not CLONE:
             _path.write_bytes(_content)
 
 
-# Of the rule whose parameter it is: Snakemake would run again, after a change of a comment, what it is told outright.
+# Named by a parameter. After a change of a comment Snakemake would run again what it is told outright.
 SCRIPT_OF_PAPER = str(SCRIPTS / "studies/paper/{params.script}.py")
 
 
