@@ -6,17 +6,17 @@ prediction. It has no parameter but the number of cycles, those of a usual machi
 It is not blind: both populations were in sight when the mechanism was thought of.
 """
 
-from __future__ import annotations
-
-from collections.abc import Sequence
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from asphalt_nscd.cli import run_script
 from asphalt_nscd.diagnosis.screening.excess_phase import constant_excess
 from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.rheology.as_run import Programme, modulus_as_read
 from asphalt_nscd.rheology.conversion import kelvin_chain
 
@@ -27,6 +27,7 @@ LEAST = 3  # frequencies of an isotherm
 QUARTER = 0.5 * np.pi  # phase [rad] of a power law with an exponent of 1
 
 
+@cache
 def excess_read(programme: Programme = PROGRAMME) -> np.ndarray:
     """Phase [rad] above that of the law, (k,), for power laws of the exponents EXPONENTS."""
     band = 2.0 * np.pi * 1e-3, 2.0 * np.pi * 1e2
@@ -111,9 +112,15 @@ def budget(table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def tables(ncat: Sequence[Path], mixes: Path) -> tuple[pd.DataFrame, pd.DataFrame]:
+def run(job: Any) -> None:
     """excess.csv and budget.csv of the nine NCAT mixes and of those of data/mixes50."""
-    parts = [excess("ncat", path.stem, pd.read_csv(path, comment="#")) for path in ncat]
-    parts += [excess("mixes50", str(mix), rows) for mix, rows in pd.read_csv(mixes).groupby("mix")]
+    parts = [excess("ncat", Path(path).stem, pd.read_csv(path, comment="#")) for path in job.input.ncat]
+    mixes = pd.read_csv(job.input.mixes, comment="#").groupby("mix")
+    parts += [excess("mixes50", str(mix), rows) for mix, rows in mixes]
     table = pd.concat(parts, ignore_index=True)
-    return table, budget(table)
+    write_table(job.output.excess, table)
+    write_table(job.output.budget, budget(table))
+
+
+if __name__ == "__main__":
+    run_script(globals()["snakemake"], run)

@@ -46,6 +46,7 @@ RECORDED = {}  # folder of a campaign, and what is made before what made it is w
 
 include: "forecast.smk"  # a mix from its binder and recipe alone
 include: "verification.smk"  # is the core right
+include: "measured.smk"  # the phase of measured mixes
 
 
 if POURED:

@@ -55,10 +55,10 @@ rule scale_law:
         "<results>/logs/scale_law/{parameter}_{factor}/T{temperature}.log",
     benchmark:
         "<results>/benchmarks/scale_law/{parameter}_{factor}/T{temperature}.tsv"
-    params:
-        script="scale_law",
     conda:
         ENVIRONMENT
+    params:
+        script="scale_law",
     message:
         "Law at {wildcards.temperature} degC with {wildcards.parameter} times {wildcards.factor}"
     script:

@@ -101,12 +101,12 @@ rule forecast_blind:
         points="results/forecast/blind.csv",
         mixes="results/forecast/blind_mixes.csv",
         overall="results/forecast/blind_overall.csv",
-    conda:
-        ENVIRONMENT
     log:
         "results/forecast/logs/blind.log",
     benchmark:
         "<results>/benchmarks/forecast_blind.tsv"
+    conda:
+        ENVIRONMENT
     message:
         "Hold the forecast against mixes that it has not seen"
     script:

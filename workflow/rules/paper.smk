@@ -10,16 +10,16 @@ for name, data in PAPER_TABLES.items():
             code=studied(f"paper.{name}"),
         output:
             f"<results>/{name}.csv",
-        params:
-            script=name,
-        conda:
-            ENVIRONMENT
         log:
             f"<results>/logs/{name}.log",
         benchmark:
             f"<results>/benchmarks/{name}.tsv"
         group:
             "contents"
+        conda:
+            ENVIRONMENT
+        params:
+            script=name,
         message:
             f"Make {name}"
         script:
@@ -42,16 +42,16 @@ if "fig_readings" in FIGURES:
                 category=FIGURES["fig_readings"][0],
                 labels={"result": title("fig_readings")},
             ),
-        params:
-            script="fig_readings",
-        conda:
-            ENVIRONMENT
         log:
             "<results>/logs/fig_readings.log",
         benchmark:
             "<results>/benchmarks/fig_readings.tsv"
         group:
             "contents"
+        conda:
+            ENVIRONMENT
+        params:
+            script="fig_readings",
         message:
             "Draw fig_readings"
         script:

@@ -31,7 +31,10 @@ PUBLISHED = {
         "forecast",
         [
             *(f"mixes/{name}.csv" for name in ("overall", "errors", "bands")),
-            *(f"{name}.csv" for name in ("voids", "paper_mix", "wrong_recipes", "blind", "blind_mixes", "blind_overall")),
+            *(
+                f"{name}.csv"
+                for name in ("voids", "paper_mix", "wrong_recipes", "blind", "blind_mixes", "blind_overall")
+            ),
             "figures/fig_forecast.png",
             "provenance.json",
         ],
@@ -40,6 +43,9 @@ PUBLISHED = {
             "wrong_recipes": "wrong_recipes.csv",
             "forecast_blind": "blind_overall.csv",
         },
+    ),
+    "publish_measured": Published(
+        "measured", ["excess.csv", "budget.csv", "provenance.json"], {"excess_budget": "budget.csv"}
     ),
     "publish_verification": Published(
         "verification",

@@ -11,13 +11,13 @@ rule verify:
         code=local(stamp(".snakemake/code", "theory", source_files(*TESTED)).as_posix()),
     output:
         multiext("results/verification/", "verification.csv", "summary.csv", "provenance.json"),
-    threads: 4
     log:
         "results/verification/logs/verification.log",
     benchmark:
         "results/verification/benchmarks/verification.tsv"
     conda:
         ENVIRONMENT
+    threads: 4
     message:
         "Verify the core"
     shell:
