@@ -35,7 +35,7 @@ class Copy:
     """The package and its tests in a folder of their own; kernels that a test compiles stay for the next."""
 
     def __init__(self, folder: Path) -> None:
-        for part in (PACKAGE, "tests", "trials"):
+        for part in (PACKAGE, "studies", "tests", "trials"):
             shutil.copytree(ROOT / part, folder / part, ignore=shutil.ignore_patterns("__pycache__"))
         shutil.copy(ROOT / "pyproject.toml", folder)
         (folder / "data").symlink_to(ROOT / "data")

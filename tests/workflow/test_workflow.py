@@ -129,7 +129,8 @@ def test_key_that_stands_twice_is_one_sentence(workspace):
 
 def test_a_forgotten_caption_is_one_sentence(workspace):
     """The recipe of CONTRIBUTING for a figure, its last step left out."""
-    shutil.copytree(ROOT / "workflow", workspace.folder / "workflow")
+    for name in ("workflow", "studies"):
+        shutil.copytree(ROOT / name, workspace.folder / name)
     shutil.copy(ROOT / "Snakefile", workspace.folder)
     (workspace.folder / "workflow/report/fig07.rst").unlink()
     workspace.configure()

@@ -105,7 +105,7 @@ if not CLONE:
             _path.write_bytes(_content)
 
 
-# Named by a parameter. After a change of a comment Snakemake would run again what it is told outright.
+# By a parameter: Snakemake asks for a script when its job starts, and a loop over rules has then ended.
 SCRIPT_OF_PAPER = str(SCRIPTS / "studies/paper/{params.script}.py")
 
 
