@@ -1,6 +1,7 @@
 """The answer on one screen: each row says what the content holds, and rows with nothing to say are left out."""
 
 import pytest
+from contents import SURE
 from test_sentences import content, part_left
 
 from asphalt_nscd.diagnosis.words.brief import MOST, NOT_TAKEN_OFF, WIDTH, rows, text
@@ -10,20 +11,9 @@ CHECKED = " It was fitted to all tests, doubtful ones too."
 
 def found(ladder=(), **then):
     """Content of tests with nothing in them but what is given."""
-    sound = {
-        "ladder": list(ladder),
-        "detection_limits": {},
-        "not_testable": [],
-        "verdict": "nothing_to_explain",
-    }
-    sound |= {
-        "notes": [],
-        "tested": True,
-        "largest_pattern_left": None,
-        "lack_of_fit_p_value": 0.5,
-        "tests": 72,
-    }
-    return content(then.pop("used", 0), then.pop("out", 0)) | sound | then
+    found = content(then.pop("used", 0), out := then.pop("out", 0)) | {"ladder": list(ladder)} | then
+    trust = {"use": found["tests"], "check": 0, "not_used": out, "use_by_specimen": {}}
+    return found | {"trust": trust | then.get("trust", {})}
 
 
 def answer(ladder=(), **then):
@@ -34,7 +24,7 @@ def answer(ladder=(), **then):
 def rung(cause, value, unit, std_error=0.1, **then):
     size = {"value": value, "std_error": std_error, "unit": unit}
     gain = {"in_sample": {"averages_by_temperature": {}}}
-    return {"cause": cause, "where": None, "parameters": {cause: size}, "gain": gain, "as_good": [], **then}
+    return SURE | {"cause": cause, "where": None, "parameters": {cause: size}, "gain": gain, **then}
 
 
 def faults(*found, **then):

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from contents import SOUND, SURE
 
 from asphalt_nscd.bending.rig import KEYS
 from asphalt_nscd.diagnosis.causes import CATALOGUE
@@ -161,15 +162,14 @@ def test_derivatives_of_the_laws(base):
     ],
 )
 def test_sign_of_an_amplitude_is_said(name, amplitude, meant):
-    rung = {
+    rung = SURE | {
         "cause": name,
         "where": None,
         "parameters": {"amplitude": {"value": amplitude, "unit": "1", "std_error": None}},
-        "as_good": [],
         "confirmed_by": "c",
         "p_value": 1e-9,
     }
-    ((_, said),) = sentences.causes({"ladder": [rung]})
+    ((_, said),) = sentences.causes(SOUND | {"ladder": [rung]})
     assert meant in said.split(".")[0] and said.endswith(
         "Established: the chance that scatter alone produces it is below one in a million. To confirm it: c."
     )

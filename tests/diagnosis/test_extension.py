@@ -24,7 +24,8 @@ OMEGA = 2 * np.pi * np.array([3.0, 10.0, 40.0])
 
 
 def rung(cause, where=None, **values):
-    return {"cause": cause, "where": where, "parameters": {k: {"value": v} for k, v in values.items()}}
+    parameters = {k: {"value": v} for k, v in values.items()}
+    return {"cause": cause, "where": where, "parameters": parameters, "taken_off": True}
 
 
 @pytest.fixture

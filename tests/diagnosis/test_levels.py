@@ -6,6 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from contents import SOUND
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
@@ -105,7 +106,7 @@ def test_a_degree_and_a_half_of_a_whole_specimen_is_odd_and_told_as_steady(expor
     assert (one["specimen"], one["temperature_C"]) == ("Mix-C", None)
     assert one["phase_deg"] == pytest.approx(1.5, abs=0.2)
     part = {"kind": "specimen", "part": "phase", "temperature_C": None, "specimen": "Mix-C", "size": 2.0}
-    found = {"discrepancy": [part], "scatter": {"phase_deg": 0.5}}
+    found = SOUND | {"discrepancy": [part], "scatter": {"phase_deg": 0.5}}
     (steady, _) = left(found | {"odd_phases": [one]})
     (changing,) = left(found)
     assert steady == "1.0 deg in the phase of specimen Mix-C, most of it alike in all its tests"
@@ -126,7 +127,7 @@ def test_of_two_specimens_neither_phase_is_odd(exports):
 
 
 def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
-    found = {
+    found = SOUND | {
         "ladder": [],
         "verdict": "nothing_to_explain",
         "tested": True,

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from contents import SOUND, SURE
 
 from asphalt_nscd.diagnosis.next_tests.fixed_orders import named
 from asphalt_nscd.diagnosis.words import sentences, unexplained
@@ -24,7 +25,7 @@ def content(used: int, out: int, **then):
     ]
     suspect = [{**one, "used": k < used} for k, one in enumerate(tests)]
     ladder = [{"cause": "phase_offset", "where": None}]
-    return {"suspect_tests": suspect, "ladder": ladder, **then}
+    return SOUND | {"suspect_tests": suspect, "ladder": ladder, **then}
 
 
 @pytest.mark.parametrize(
@@ -90,7 +91,7 @@ def test_the_same_causes_in_another_order_are_the_same():
 )
 def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
     bias = {"value": 8.0, "std_error": 0.4, "unit": "K"}
-    rung = {
+    rung = SURE | {
         "cause": "temperature_bias",
         "where": 4.0,
         "parameters": {"temperature_rise": bias},
@@ -99,7 +100,7 @@ def test_why_a_name_is_only_likely(hangs_on, as_good, sure):
         "hangs_on": hangs_on,
         "confirmed_by": "a thermometer",
     }
-    ((told, meaning),) = causes({"ladder": [rung]})
+    ((told, meaning),) = causes(SOUND | {"ladder": [rung]})
     assert told == "temperature bias at 4 degC: 8 K or more (the search ends there)"
     assert meaning.endswith(f"{sure} To confirm it: a thermometer.")
 
@@ -120,13 +121,14 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
         hot,
     ]
     scatter = {"modulus_percent": 1.0, "phase_deg": 0.5}
-    assert left({"discrepancy": found, "scatter": scatter}) == [
+    assert left(SOUND | {"discrepancy": found, "scatter": scatter}) == [
         "2.0 % in |E*| of Specimen 1: its master curve has another shape than the common one",
         "1.5 % in |E*| of specimen S2, changing with frequency and temperature",
         "0.5 deg in the phase at 37 degC",
     ]
     few, many = (
-        {"reading": {"specimens": [*"ABCDE"][:n]}, "discrepancy": found, "scatter": scatter} for n in (3, 5)
+        SOUND | {"reading": {"specimens": [*"ABCDE"][:n]}, "discrepancy": found, "scatter": scatter}
+        for n in (3, 5)
     )
     assert left(few)[3:] == ["3 specimens are too few to tell which one is odd"]
     assert left(many)[3:] == left(few | {"discrepancy": [hot]})[1:] == []
@@ -140,7 +142,7 @@ def test_a_specimen_called_specimen_is_not_called_so_twice():
 
 def test_a_doubt_and_the_law_of_the_mix_are_told_for_what_they_are():
     size = {"value": 1.5, "std_error": 0.1, "unit": "deg"}
-    rung = {
+    rung = SURE | {
         "cause": "phase_offset",
         "where": None,
         "parameters": {"phase_offset": size},
@@ -155,21 +157,23 @@ def test_a_doubt_and_the_law_of_the_mix_are_told_for_what_they_are():
         "reference_temperature": {"value": 20.0, "std_error": None, "unit": "degC"},
     }
     law = rung | {"cause": "relaxation_spectrum", "doubts": [], "parameters": constants, "established": False}
-    (doubt,) = causes({"ladder": [law, rung]})
+    (doubt,) = causes(SOUND | {"ladder": [law, rung]})
     assert doubt[1].endswith(
         "Not certain: beside a smooth error its size is 2.5. It was found after a name that is in doubt. To confirm "
         "it: metal."
     )
-    assert law_of_the_mix({"ladder": [law, rung]}) == (
+    assert law_of_the_mix(SOUND | {"ladder": [law, rung]}) == (
         "Time-temperature shift of the free master curve: WLF C1 1.50 +- 0.20, WLF C2 173.00 +- 0.20 K, reference "
         "temperature 20 degC",
         "Not certain: certainty takes four temperatures, three frequencies and two specimens.",
     )
-    assert law_of_the_mix({"ladder": [rung]}) is None
+    assert law_of_the_mix(SOUND | {"ladder": [rung]}) is None
     sure = law | {"established": True}
-    assert law_of_the_mix({"ladder": [sure]})[1] == ""  # Burgers laws are told of where they were simulated
+    assert (
+        law_of_the_mix(SOUND | {"ladder": [sure]})[1] == ""
+    )  # Burgers laws are told of where they were simulated
     bonds = rung | {"cause": "bond_mapping"}
-    assert law_of_the_mix({"ladder": [bonds, sure]})[1] == (
+    assert law_of_the_mix(SOUND | {"ladder": [bonds, sure]})[1] == (
         "Established: a Burgers law at each temperature is not enough. The chance that scatter alone makes it miss by "
         "so much is below one in a million."
     )
@@ -177,7 +181,7 @@ def test_a_doubt_and_the_law_of_the_mix_are_told_for_what_they_are():
 
 def test_a_rival_that_was_named_too_is_no_alternative():
     size = {"value": 1.5, "std_error": 0.1, "unit": "deg"}
-    rung = {
+    rung = SURE | {
         "cause": "phase_offset",
         "where": None,
         "parameters": {"phase_offset": size},
@@ -185,19 +189,19 @@ def test_a_rival_that_was_named_too_is_no_alternative():
         "as_good": ["channel_delay"],
         "confirmed_by": "metal",
     }
-    assert "Not certain: channel delay fits as well" in causes({"ladder": [rung]})[0][1]
-    both = causes({"ladder": [rung, rung | {"cause": "channel_delay", "as_good": []}]})
+    assert "Not certain: channel delay fits as well" in causes(SOUND | {"ladder": [rung]})[0][1]
+    both = causes(SOUND | {"ladder": [rung, rung | {"cause": "channel_delay", "as_good": []}]})
     assert "Not certain: channel delay would have fitted as well before both were named. To" in both[0][1]
 
 
 def test_a_relative_size_is_told_in_percent():
     size = {"value": -0.316, "std_error": 0.07, "unit": "1"}
     rung = {"cause": "specimen_geometry", "where": "A", "parameters": {"relative_modulus": size}}
-    assert sentences.size(rung, {}) == "-32 +- 14 %"
+    assert sentences.size(rung, SOUND) == "-32 +- 14 %"
 
 
 def test_one_temperature_has_no_slope_over_it():
-    found = {
+    found = SOUND | {
         "verdict": "unexplained_structure", "scatter": {}, "lack_of_fit_p_value": 1e-9,
         "largest_pattern_left": {"pattern": "specimen X, slope over temperature, modulus", "z": 6.18, "p_value": 1e-9},
         "reading": {"isotherms_C": [20.0]},
@@ -213,7 +217,7 @@ def test_one_temperature_has_no_slope_over_it():
 
 def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit():
     size = {"value": 1.5, "std_error": 0.5, "unit": "deg"}
-    rung = {
+    rung = SURE | {
         "cause": "phase_offset",
         "where": None,
         "parameters": {"offset": size},
@@ -221,17 +225,17 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
         "as_good": ["channel_delay"],
         "confirmed_by": "metal",
     }
-    near, far = ({"ladder": [rung], "estimates_spread": spread} for spread in (1.0, 2.0))
+    near, far = (SOUND | {"ladder": [rung], "estimates_spread": spread} for spread in (1.0, 2.0))
     assert sentences.size(rung, near) == "1.50 +- 0.98 deg" and sentences.size(rung, far) == "1.5 +- 2.0 deg"
     worse = rung | {"gain": {"in_sample": {"rms_over_scatter": {"before": 2.2, "after": 3.1}}}}
     hidden = (
         " It is not in the answer above: if all tests count alike, they fit worse with it than without it. To"
     )
-    assert hidden in causes({"ladder": [worse | {"established": False}]})[0][1]
-    assert "not in the answer" not in causes({"ladder": [worse]})[0][1] + causes(near)[0][1]
+    assert hidden in causes(SOUND | {"ladder": [worse | {"established": False}]})[0][1]
+    assert "not in the answer" not in causes(SOUND | {"ladder": [worse]})[0][1] + causes(near)[0][1]
     assert sentences.of_intervals(near) == "+- is the 95 % interval."
     assert sentences.of_intervals(far).endswith("so it was widened 2.0 times.")
-    assert sentences.of_intervals({"ladder": []}) == ""
+    assert sentences.of_intervals(SOUND | {"ladder": []}) == ""
 
 
 LIMITS = {

@@ -1,6 +1,7 @@
 """Sentences of what the law misses, and where it must not be used."""
 
 import pytest
+from contents import SOUND, SURE
 from test_sentences import content, part_left
 
 from asphalt_nscd.diagnosis.words import verdict
@@ -10,7 +11,7 @@ from asphalt_nscd.diagnosis.words.verdict import on_simulation
 
 def structure_left():
     """What stays on a table that no cause explains to within scatter."""
-    return {
+    return SOUND | {
         "verdict": "unexplained_structure",
         "tested": True,
         "numerics": {"largest_modulus_percent": 0.1},
@@ -54,10 +55,7 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
         "where": None,
         "gain": {"in_sample": {"averages_by_temperature": {"20": errors}}},
     }
-    found = {
-        "ladder": [rung],
-        **structure_left(),
-    }
+    found = structure_left() | {"ladder": [rung]}
     assert on_simulation(found, after).endswith(
         f"more than scatter within specimens can explain, and no cause was found.{said}"
     )
@@ -67,16 +65,10 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
 def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law):
     """Of one specimen no spectrum is told, but its causes are judged beside one."""
     errors = {name: {"before": 10.5, "after": 1.0} for name in ("mre_E_percent", "mre_phase_percent")}
-    found = {
-        "ladder": [
-            {
-                "cause": "phase_offset",
-                "where": None,
-                "gain": {"in_sample": {"averages_by_temperature": {"20": errors}}},
-            }
-        ],
+    gain = {"in_sample": {"averages_by_temperature": {"20": errors}}}
+    found = structure_left() | {
+        "ladder": [SURE | {"cause": "phase_offset", "where": None, "gain": gain}],
         "baseline": {"mre_E_percent": {"20": burgers}},
-        **structure_left(),
     }
     assert on_simulation(found) == (
         f"{law}, fitted together with a phase offset, misses the mean of the specimens by 1 % in |E*| and 1 % in the "
@@ -93,7 +85,7 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
 def test_two_laws_are_told_by_two_names_with_their_weights():
     law = {"cause": "relaxation_spectrum", "where": None}
     offset = {"cause": "phase_offset", "where": None, "taken_off": False}
-    found = {"ladder": [law, offset], "scatter": {"from_replicates": True}}
+    found = SOUND | {"ladder": [law, offset]}
     assert verdict.two_laws(found) == []
     found["law_misses"] = {"mre_E_percent": 1.97, "mre_phase_percent": 8.388}
     misses, weights = verdict.two_laws(found)
@@ -117,7 +109,7 @@ def test_two_laws_are_told_by_two_names_with_their_weights():
 
 
 def test_what_all_tests_share_is_not_at_a_place():
-    found = {"discrepancy": [part_left("all", "phase", 1.0)], "scatter": {"phase_deg": 0.5}}
+    found = SOUND | {"discrepancy": [part_left("all", "phase", 1.0)], "scatter": {"phase_deg": 0.5}}
     assert left(found) == ["0.5 deg in the phase of all tests"]
 
 
@@ -146,12 +138,12 @@ def test_a_law_that_predicts_badly_is_warned_of(coldest, inner, told, where):
         for t, error in (("37", 9.0), ("-4", coldest), ("21", inner))
     }
     held_out = {"leave_one_isotherm_out": {"averages_by_temperature": by}}
-    found = {"ladder": [{"gain": {"in_sample": {}, "held_out": held_out}}]}
+    found = SOUND | {"ladder": [{"gain": {"in_sample": {}, "held_out": held_out}}]}
     said = " ".join(verdict.beyond_the_tests(found))
     assert said.endswith(told) and bool(said) == bool(told)
     assert verdict.predicted_badly(found) == where
     one = {"leave_one_isotherm_out": {"averages_by_temperature": {"21": by["21"]}}}
-    alone = verdict.beyond_the_tests({"ladder": [{"gain": {"in_sample": {}, "held_out": one}}]})
+    alone = verdict.beyond_the_tests(SOUND | {"ladder": [{"gain": {"in_sample": {}, "held_out": one}}]})
     assert bool(alone) == (inner > 10.0)  # one temperature is both ends
-    assert verdict.beyond_the_tests({"ladder": []}) == []
+    assert verdict.beyond_the_tests(SOUND) == []
     assert verdict.predicts_badly(held_out["leave_one_isotherm_out"], inner=True) == (inner > 10.0)

@@ -148,9 +148,7 @@ class Diagnosis:
         DataFrame
             One row for each: specimen, temperature_C, frequency_Hz, used, reasons.
         """
-        rows = [
-            {**one, "reasons": "; ".join(one["reasons"])} for one in self.content.get("suspect_tests", [])
-        ]
+        rows = [{**one, "reasons": "; ".join(one["reasons"])} for one in self.content["suspect_tests"]]
         return pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz", "used", "reasons"])
 
     @property
@@ -401,10 +399,10 @@ def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
             for q in _ERRORS
             for when in ("before", "after")
         },
-        "established": bool(rung.get("established")),
+        "established": bool(rung["established"]),
         "as_good": ", ".join(rung["as_good"]),
-        "hangs_on": ", ".join(map(str, rung.get("hangs_on", ()))),
-        "doubts": ". ".join(rung.get("doubts", ())),
+        "hangs_on": ", ".join(map(str, rung["hangs_on"])),
+        "doubts": ". ".join(rung["doubts"]),
         "sentence": rung["sentence"],
         "confirmed_by": rung["confirmed_by"],
     }

@@ -105,6 +105,7 @@ def test_rivals_and_text_from_the_table_are_shown_as_text(page):
     assert "one of these" not in html
     ladder = [
         {
+            **SURE,
             "cause": "loose_clamp",
             "where": "<b>",
             "p_value": 0.004,
@@ -145,9 +146,10 @@ def test_without_replicates_nothing_is_called_right_or_established(page, results
     unsure = [rung | {"established": False} for rung in ladder]
     html = page(verdict="unexplained_structure", ladder=unsure)
     assert '<th scope="row">Possible fault</th><td class="words"><p>Loose clamp of specimen 2, ' in html
-    assert "Not certain: certainty takes four temperatures, three frequencies and two specimens." in html
+    assert "Not certain: only 2 temperatures were tested, and certainty takes 4." in html
 
 
+SURE = {"as_good": [], "established": True, "taken_off": True, "hangs_on": [], "doubts": []}
 GAIN = {
     **dict.fromkeys(
         ("mre_E_percent", "mre_phase_percent", "rms_over_scatter"), {"before": 2.0, "after": 1.0}
@@ -163,10 +165,10 @@ def test_a_law_that_predicts_worse_than_before_is_warned_of(page, after, warned)
     errors = dict.fromkeys(("mre_E_percent", "mre_phase_percent"), {"before": 10.8, "after": after})
     worse = GAIN | {"averages_by_temperature": {"0": errors}}
     rung = {
+        **SURE,
         "cause": "relaxation_spectrum",
         "where": None,
         "p_value": 0.0,
-        "as_good": [],
         "sentence": "s",
         "confirmed_by": "c",
         "gain": {"in_sample": GAIN, "held_out": {"leave_one_isotherm_out": worse}},
@@ -207,6 +209,7 @@ def test_what_a_laboratory_is_to_do_stands_on_the_page(page):
         instructions={"costs": "Counted: 2 h.", "orders": [order]},
         suspect_tests=[suspect],
         with_suspects=other,
+        trust={"use": 12, "check": 0, "not_used": 1, "use_by_specimen": {}},
     )
     assert "<b>2.5 h: test specimens A and B at −6 °C, 25 Hz.</b> It shows as 7.1°." in html
     assert "<p>12 of 13 tests can be used, 1 cannot.</p>" in html
@@ -234,10 +237,10 @@ def test_bond_mapping_stands_first_with_its_evidence_and_without_a_chance(page, 
         "0": {name: {"before": 10.2, "after": 2.0} for name in ("mre_E_percent", "mre_phase_percent")}
     }
     rung = {
+        **SURE,
         "cause": "bond_mapping",
         "where": None,
         "p_value": None,
-        "as_good": [],
         "sentence": "areas do not fill",
         "evidence": "1.056 to 1.109 of the law",
         "confirmed_by": "packings",

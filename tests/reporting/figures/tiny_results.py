@@ -193,6 +193,7 @@ class Results:
             },
         }
         rung = {"where": None, "p_value": 1e-9, "as_good": [], "sentence": "s", "confirmed_by": "c"}
+        rung |= {"established": True, "hangs_on": [], "doubts": []}
         rung["gain"] = {"in_sample": gain, "held_out": {"leave_one_frequency_out": gain}}
         spectrum = {"wlf_C1": {"value": 12.0, "std_error": None, "unit": "1"}}
         clamp = {"compliance": {"value": 3e-12, "std_error": 2e-13, "unit": "1/Pa"}}
@@ -211,7 +212,7 @@ class Results:
             },
             "ladder": [
                 rung | {"cause": "relaxation_spectrum", "parameters": spectrum, "log10_shift": {"0": 2.0, "20": 0.0}},
-                rung | {"cause": "loose_clamp", "where": "2", "parameters": clamp},
+                rung | {"cause": "loose_clamp", "where": "2", "parameters": clamp, "taken_off": True},
             ],
             "withdrawn": [], "indistinguishable": [["loose_clamp of all specimens", "relaxation_spectrum"]],
             "not_testable": [{"cause": "damage", "needs": "the order of the tests"}],
@@ -225,6 +226,19 @@ class Results:
             "lack_of_fit_p_value": 0.4, "largest_pattern_left": None, "unexplained": [], "notes": [],
             "provenance": {
                 "git_commit": "c", "python": "3", "packages": {}, "measurements": "m.csv", "draws": 500, "seed": 0,
+                "scatter_stated": None,
+            },
+            "estimates": {}, "estimates_spread": 1.0, "discrepancy": [], "repeatability": None, "with_suspects": None,
+            "without_doubtful": None, "instructions": {"costs": "", "orders": []}, "contradictory_isotherms": [],
+            "trust": {"use": 12, "check": 0, "not_used": 0, "use_by_specimen": {}}, "one_sided": "", "odd_levels": [],
+            "odd_phases": [], "odd_temperatures": [], "suspect_tests": [], "detection_limits_of_one_place": {},
+            "reported": {
+                "temperature_C": 15.0, "frequency_Hz": 10.0, "E_MPa": 9e3, "E_low_MPa": 8e3, "E_high_MPa": 1e4,
+                "phase_deg": 20.0, "phase_low_deg": 19.0, "phase_high_deg": 21.0,
+            },
+            "reading": {
+                "test_type": "bending", "specimens": ["1", "2"], "isotherms_C": [0.0, 20.0], "quality_columns": [],
+                "limits_exceeded": [], "notes": [],
             },
         }  # fmt: skip
         write_json(path := self.folder / "diagnosis.json", content | changes)

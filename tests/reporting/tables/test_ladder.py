@@ -31,7 +31,12 @@ def data(tmp_path):
     left_out = {"0": {name: {"before": 9.0, "after": 1.5} for name in table4.ERRORS}}
     gain = {"in_sample": {}, "held_out": {"leave_one_isotherm_out": {"averages_by_temperature": left_out}}}
     spectrum = {"cause": "relaxation_spectrum", "where": None, "parameters": {}, "gain": gain}
-    delay = {"cause": "channel_delay", "where": None, "parameters": {"delay": {"value": 1e-4}}}
+    delay = {
+        "cause": "channel_delay",
+        "where": None,
+        "parameters": {"delay": {"value": 1e-4}},
+        "taken_off": True,
+    }
     bonds = {"cause": "bond_mapping", "where": None, "parameters": {}}
     content = {"scatter": {"modulus_percent": 1.0, "phase_deg": 0.4}, "ladder": [bonds, spectrum, delay]}
     (tmp_path / "diagnosis.json").write_text(json.dumps(content))

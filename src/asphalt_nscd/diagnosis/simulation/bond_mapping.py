@@ -74,6 +74,7 @@ def bond_mapping(
         "as_good": [],
         "established": True,
         "hangs_on": [],
+        "doubts": [],
         "sentence": SENTENCE,
         "evidence": evidence,
         "confirmed_by": CONFIRMED_BY,

@@ -225,7 +225,7 @@ def causes_taken_off(diagnosis_file: str | Path) -> list[Candidate]:
     out = []
     try:
         for rung in content["ladder"]:
-            if rung["cause"] in ("relaxation_spectrum", BOND_MAPPING) or not rung.get("taken_off", True):
+            if rung["cause"] in ("relaxation_spectrum", BOND_MAPPING) or not rung["taken_off"]:
                 continue
             cause = causes[rung["cause"]]
             values = tuple(float(rung["parameters"][p.name]["value"]) for p in cause.parameters)

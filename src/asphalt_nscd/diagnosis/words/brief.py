@@ -83,8 +83,8 @@ def text(content: Content) -> str:
 
 
 def sure(rung: Content) -> bool:
-    """Whether a cause is established, not merely possible; an older diagnosis does not say, and then it is."""
-    return bool(rung.get("established", True))
+    """Whether a cause is established, not merely possible."""
+    return bool(rung["established"])
 
 
 def _told(rungs: list[Content], content: Content, certain: bool) -> list[str]:
@@ -124,7 +124,7 @@ def _notes(content: Content) -> list[str]:
         verdict.files(content),
         TYPE_NOT_GIVEN * (read.get("test_type") == UNKNOWN),
         TEMPERATURES_TAKEN * bool(read.get("off_target")),
-        *(sentences.origin(content) if content.get("origin", "measured") != "measured" else []),
+        *(sentences.origin(content) if content["origin"] != "measured" else []),
         NO_QUALITY_COLUMNS * no_columns,
         f"Not tested: {gaps}." * bool(gaps),
     ]
@@ -134,29 +134,29 @@ def _notes(content: Content) -> list[str]:
 def _data(content: Content) -> list[str]:
     """How many tests can be used, how many only after a check, how many not."""
     tests, out = content["tests"], len(not_used(content))
-    trust = content.get("trust", {"use": tests, "check": 0, "not_used": out})
+    trust = content["trust"]
     everywhere = any(sure(rung) and rung["where"] is None for rung in verdict.faults(content))
     corrected = " after correction" * (everywhere and trust["use"] > 0)
     if not trust["check"] and not trust["not_used"]:
         return [f"All {tests} tests can be used{corrected}."]
-    of = [name for name, count in trust.get("use_by_specimen", {}).items() if count]
+    of = [name for name, count in trust["use_by_specimen"].items() if count]
     alone = f" (of {specimen_named(of[0])} only)" if len(of) == 1 < len(trust["use_by_specimen"]) else ""
     parts = [f"{trust['use'] or 'None'} of {tests + out} tests can be used{corrected}{alone}"]
     at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)" if "check_at_C" in trust else ""
     parts += [f"{trust['check']} only if a check clears them{at}"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
-    side = "higher" if "higher" in content.get("one_sided", "") else "lower"
+    side = "higher" if "higher" in content["one_sided"] else "lower"
     phases = [
         f"Use their |E*| now. Most phases are {side} than |E*| requires: use them after the test on metal, less the "
         "phase of metal."
-    ] * bool(content.get("one_sided"))
+    ] * bool(content["one_sided"])
     return [" ".join([f"{', '.join(parts)}.", *phases])]
 
 
 def _no_fault(content: Content, possible: bool, effects: bool) -> list[str]:
     """That none is certain, and how many temperatures certainty lacks; effects: whether any of the mix is certain."""
     confined = ("odd_phases", "odd_temperatures", "contradictory_isotherms")
-    checks = any("probability" in one for key in confined for one in content.get(key, []))
+    checks = any("probability" in one for key in confined for one in content[key])
     checks |= "highest_frequency" in content
     beside = ["what is to be checked first"] * checks + ["the effect below"] * effects
     said = "None is certain" if possible else "None found" + f" beside {joined(beside)}" * bool(beside)
@@ -176,7 +176,7 @@ def _fault(rung: Content, content: Content) -> str:
     said = [_sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")]
     taken_off = _taken_off(rung, content)
     if not sure(rung):
-        same = [name for name in rung.get("as_good", []) if name.startswith(f"{rung['cause']} @")]
+        same = [name for name in rung["as_good"] if name.startswith(f"{rung['cause']} @")]
         others = joined(list(map(sentences.in_words, same)), "or")
         said += [f"If so, {meaning[:1].lower()}{meaning[1:]}"] * bool(meaning)
         said += [f"Not certain: {others} fits as well."] * bool(same)
@@ -191,7 +191,7 @@ def _fault(rung: Content, content: Content) -> str:
 
 
 def _taken_off(rung: Content, content: Content) -> bool:
-    return "law_misses" in content and bool(rung.get("taken_off", True))
+    return "law_misses" in content and bool(rung["taken_off"])
 
 
 def _not_taken_off(content: Content, possible: bool) -> list[str]:
@@ -224,7 +224,7 @@ def _out(tests: list[Content]) -> list[str]:
 def _check(content: Content) -> list[str]:
     """What is doubtful, where, and what to check."""
     read, tests = content.get("reading", {}), content["tests"] + len(not_used(content))
-    said = _contradictions(content.get("contradictory_isotherms", []))
+    said = _contradictions(content["contradictory_isotherms"])
     said += [
         _sentence(
             f"{specimen_named(one['specimen'])} at {one['temperature_C']:g} degC: measured at {one['measured_C']:g} "
@@ -243,7 +243,7 @@ def _check(content: Content) -> list[str]:
                 f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in "
                 f"{_where_exceeded(here, content)}. Check {limit.check}."
             )
-    warmer = content.get("odd_temperatures", [])
+    warmer = content["odd_temperatures"]
     # What explains both comes before the two that it explains, of which a screen may not hold all.
     said += [_sentence(one) for one in levels.of_exchanged(odd(content)[0], warmer)]
     said += [_sentence(one) for one in levels.of_temperatures(warmer)]
@@ -272,8 +272,8 @@ def _at_highest(content: Content) -> list[str]:
 
 def _what_clears(content: Content) -> list[str]:
     """The result of a check that makes doubtful tests usable."""
-    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
-    trust = content.get("trust", {"check": 0})
+    broken = [one["temperature_C"] for one in content["contradictory_isotherms"]]
+    trust = content["trust"]
     if not trust["check"] or (broken and trust.get("check_at_C") == broken):
         return []
     return [
@@ -284,7 +284,7 @@ def _what_clears(content: Content) -> list[str]:
 
 def _within_scatter(content: Content) -> str:
     """Between two tests of one specimen, 95 % of the differences: 2.8 standard deviations (ISO 5725-6)."""
-    within = (content.get("repeatability") or {}).get("within")
+    within = (content["repeatability"] or {}).get("within")
     if within is None:
         return ""
     modulus, phase = (f"{2.8 * within[part]:.2g}" for part in ("E_percent", "phase_deg"))
@@ -318,14 +318,9 @@ def _contradictions(found: list[Content]) -> list[str]:
     """Where isotherms contradict themselves most, what to check, and which tests to use then."""
     again = "then test there again. If phase and slope then agree, use the new tests in place of the old."
     turned = [one for one in found if "offset_deg" in one]
-    said = [
-        f"{one['temperature_C']:g} degC: |E*| and phase contradict each other. Check strain and machine, {again}"
-        for one in found
-        if one not in turned and "worst_deg" not in one  # of a file written before
-    ]
+    said = []
     for side in ("higher", "lower"):
-        known = [one for one in found if one not in turned and "worst_deg" in one]
-        here = [one for one in known if (one["worst_deg"] > 0.0) == (side == "higher")]
+        here = [one for one in found if one not in turned and (one["worst_deg"] > 0.0) == (side == "higher")]
         if here:
             at = joined([f"{one['temperature_C']:g}" for one in here])
             most = joined([f"{abs(one['worst_deg']):.1f} deg (at {one['worst_Hz']:g} Hz)" for one in here])
@@ -338,7 +333,7 @@ def _contradictions(found: list[Content]) -> list[str]:
 
 
 def _scatter(content: Content) -> list[str]:
-    found = content.get("repeatability") or {}
+    found = content["repeatability"] or {}
     within = "within one specimen, after removing its mean deviation"
     said = [
         f"{words}: {found[way]['E_percent']:.1f} % in |E*|, {found[way]['phase_deg']:.1f} deg in phase"
@@ -365,11 +360,11 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     if sentences.alone(content):
         said.append("Without replicates nobody knows how much of that is scatter.")
     named = [*verdict.faults(content), *verdict.effects(content)]
-    corrected = any(rung.get("taken_off", True) for rung in named)
+    corrected = any(rung["taken_off"] for rung in named)
     out = levels.places(*odd(content))
     if "highest_frequency" in content:
         out.append(f"the tests at {content['highest_frequency']['frequency_Hz']:g} Hz")
-    doubtful = content.get("trust", {}).get("check", 0) and not out
+    doubtful = content["trust"].get("check", 0) and not out
     but = " but those left out" * bool(not_used(content))
     if corrected or out:
         without = f" without {joined(out)}" if out else ""
@@ -383,21 +378,21 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
 
 def _unexplained(content: Content) -> list[str]:
     # An isotherm that contradicts itself is told under what to check first.
-    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
-    of_others = [one for one in content.get("discrepancy", []) if one["temperature_C"] not in broken]
-    told = sentences.more_than_scatter(content) and bool(of_others or not content.get("discrepancy"))
+    broken = [one["temperature_C"] for one in content["contradictory_isotherms"]]
+    of_others = [one for one in content["discrepancy"] if one["temperature_C"] not in broken]
+    told = sentences.more_than_scatter(content) and bool(of_others or not content["discrepancy"])
     parts = unexplained.left({**content, "discrepancy": of_others})[:PARTS] if told else []
-    remarks = unexplained.remarks(content, PARTS) if parts and content.get("discrepancy") else []
-    off = "the common master curve is off by " if content.get("discrepancy") else ""
+    remarks = unexplained.remarks(content, PARTS) if parts and content["discrepancy"] else []
+    off = "the common master curve is off by " if content["discrepancy"] else ""
     said = [f"Beyond scatter, {off}{part}" for part in parts if part not in remarks]
-    return [*filter(None, [content.get("one_sided", "")]), *map(_sentence, [*said, *remarks])]
+    return [*filter(None, [content["one_sided"]]), *map(_sentence, [*said, *remarks])]
 
 
 def _next(content: Content) -> list[str]:
     """The orders, numbered, each with its hours and purpose; none for data that no laboratory made."""
-    if "reconstructed" in content.get("origin", "measured"):
+    if "reconstructed" in content["origin"]:
         return []
-    orders = content.get("instructions", {"orders": []})["orders"]
+    orders = content["instructions"]["orders"]
     said = []
     for number, one in enumerate(orders, 1):
         act, tested = one["act"], one["frequencies_Hz"]

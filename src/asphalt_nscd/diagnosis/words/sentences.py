@@ -41,17 +41,17 @@ WORSE = 1.05  # times the misfit without a cause, from which it is told that the
 
 def odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """Odd isotherms in |E*|, then odd isotherms and specimens (temperature_C None) in phase."""
-    return content.get("odd_levels", []), content.get("odd_phases", [])
+    return content["odd_levels"], content["odd_phases"]
 
 
 def not_used(content: Content) -> list[Content]:
     """Suspect tests that the diagnosis left out, in their order."""
-    return [one for one in content.get("suspect_tests", []) if not one["used"]]
+    return [one for one in content["suspect_tests"] if not one["used"]]
 
 
 def doubtful(content: Content) -> list[Content]:
     """Suspect tests that the diagnosis used all the same, in their order."""
-    return [one for one in content.get("suspect_tests", []) if one["used"]]
+    return [one for one in content["suspect_tests"] if one["used"]]
 
 
 def with_suspects(content: Content) -> str:
@@ -72,7 +72,7 @@ def only_with_suspects(content: Content) -> str:
 
 def _changed(content: Content, key: str, when: str, alike: str = "name the same causes") -> str:
     """What another choice of tests would name; alike: if the same, a law is no fault. Empty where there was none."""
-    then = content.get(key)
+    then = content[key]
     if then is None:
         return ""
     now = [cause_words(rung) for rung in content["ladder"] if rung["cause"] not in (BOND_MAPPING, LAW)]
@@ -109,12 +109,12 @@ def of_intervals(content: Content) -> str:
 
 def widened(content: Content) -> float:
     """Factor on the intervals: one where scatter explains how far the tests lie from the fit, else above one."""
-    return written.widening(content.get("estimates_spread", 1.0))
+    return written.widening(content["estimates_spread"])
 
 
 def origin(content: Content) -> list[str]:
     """What the origin of the data means, a sentence for each known word; if none is known, one that quotes it."""
-    stated = content.get("origin", "measured")
+    stated = content["origin"]
     return [sentence for word, sentence in ORIGINS.items() if word in stated] or [f"The data are {stated}."]
 
 
@@ -155,7 +155,7 @@ def causes(content: Content) -> list[tuple[str, str]]:
 
 def _not_in_answer(rung: Content) -> str:
     """Why the answer does not mention a cause."""
-    if rung.get("established", True) or not worsens(rung):
+    if rung["established"] or not worsens(rung):
         return ""
     return " It is not in the answer above: if all tests count alike, they fit worse with it than without it."
 
@@ -182,11 +182,11 @@ def _sure(rung: Content, content: Content) -> str:
     if doubts:
         first, *more = doubts
         return f"Not certain: {'. '.join([first[:1].lower() + first[1:], *more])}."
-    if not rung.get("established", True):
+    if not rung["established"]:
         return f"Not certain: {lacking(content)}."
     if rung["cause"] == LAW:  # the Burgers laws are those of the simulated paper
         return f"{BURGERS_MISS} {chance}." if named(content, BOND_MAPPING) else ""
-    if content.get("discrepancy"):
+    if content["discrepancy"]:
         return f"Established{likely}. It stays whichever isotherm, frequency or specimen is left out."
     return f"Established{likely}: the chance that scatter alone produces it is {chance}."
 
@@ -201,12 +201,12 @@ def _doubts(rung: Content, content: Content) -> list[str]:
         doubts.append(f"{others} fits as well; these tests do not say which")
     if also:
         doubts.append(f"{also} would have fitted as well before both were named")
-    if rung.get("hangs_on"):
+    if rung["hangs_on"]:
         doubts.append(f"It is no longer found if {joined(rung['hangs_on'], 'or')} is left out")
-    doubts += rung.get("doubts", [])
+    doubts += rung["doubts"]
     if rung.get("probability", 1.0) < NAMED:
         doubts.append(f"Its probability is {probability(rung)}, and certainty takes {100.0 * NAMED:.0f} %")
-    if doubts and (0 < len(isotherms(content)) < LEAST_ISOTHERMS or not content.get("tested", True)):
+    if doubts and (0 < len(isotherms(content)) < LEAST_ISOTHERMS or not content["tested"]):
         doubts.append(f"Besides, {lacking(content)}")
     return doubts
 
@@ -230,7 +230,7 @@ def lacking(content: Content) -> str:
         few.append(f"only {tested}, and certainty takes {LEAST_ISOTHERMS}")
     if alone(content):
         few.append("no condition was tested on a second specimen")
-    elif not content.get("tested", True):
+    elif not content["tested"]:
         few.append("only two frequencies were tested, and certainty takes 3")
     return "; ".join(few) or f"certainty takes {ENOUGH}"
 
@@ -244,8 +244,8 @@ def in_words(name: str) -> str:
 
 def alone(content: Content) -> bool:
     """Whether nothing tells the scatter (one specimen, none stated), so that it is what a smooth law leaves."""
-    known = content.get("scatter", {}).get("from_replicates", True)
-    return not (known or content.get("provenance", {}).get("scatter_stated"))
+    known = content["scatter"].get("from_replicates", True)
+    return not (known or content["provenance"]["scatter_stated"])
 
 
 def isotherms(content: Content) -> list[float]:
@@ -256,7 +256,7 @@ def isotherms(content: Content) -> list[float]:
 def more_than_scatter(content: Content) -> bool:
     """Whether named causes leave structure, by lack of fit or largest pattern left, at half a step's chance each."""
     pattern = content["largest_pattern_left"]
-    chances = [content.get("lack_of_fit_p_value", 0.0), 1.0 if pattern is None else pattern["p_value"]]
+    chances = [content["lack_of_fit_p_value"], 1.0 if pattern is None else pattern["p_value"]]
     return min(chances) <= 0.5 * ALPHA_PER_STEP
 
 

@@ -60,12 +60,12 @@ def _suspects(content: Content) -> list[str]:
 def _left(content: Content) -> list[str]:
     dropped = [sentences.in_words(name) for name in content["withdrawn"]]
     left = unexplained.left(content)
-    left = [unexplained.OF_WHAT_IS_LEFT, *left] if content.get("discrepancy") else left
+    left = [unexplained.OF_WHAT_IS_LEFT, *left] if content["discrepancy"] else left
     return left + ([f"Considered but not named, since too unsure: {', '.join(dropped)}."] if dropped else [])
 
 
 def _orders(content: Content) -> list[str]:
-    found = content.get("instructions", {"orders": []})
+    found = content["instructions"]
     lines = []
     for number, one in enumerate(found["orders"], 1):
         lines += [f"{number}. {one['text']}", *(f"   {why}" for why in one["why"])]

@@ -8,7 +8,7 @@ from asphalt_nscd.diagnosis.written import shown, three_digits
 
 def scatter_rows(content: Content) -> list[list[str]]:
     """Scatter between and within specimens [% of |E*|, degrees] by isotherm, then of all; empty without replicates."""
-    found = content.get("repeatability")
+    found = content["repeatability"]
     if found is None:
         return []
     rows = [("all", found), *((f"{one['temperature_C']:g} degC", one) for one in found["by_isotherm"])]

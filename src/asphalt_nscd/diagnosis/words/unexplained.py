@@ -54,7 +54,7 @@ def _size(value: float, unit: str) -> str:
 
 def left(content: Content) -> list[str]:
     """At most LARGEST parts that no cause explains, largest first, in % of |E*| or degrees; empty if none is left."""
-    parts = sorted(content.get("discrepancy", []), key=lambda one: -one["size"])[:LARGEST]
+    parts = sorted(content["discrepancy"], key=lambda one: -one["size"])[:LARGEST]
     if parts:
         return [*(_part_left(one, content) for one in parts), *remarks(content)]
     pattern = content["largest_pattern_left"]
@@ -74,7 +74,7 @@ def remarks(content: Content, most: int = LARGEST) -> list[str]:
     places = levels.places(*odd(content))
     said = [f"These sizes include what is odd: {joined(places)}"] if places else []
     specimens = len(content.get("reading", {}).get("specimens", []))
-    largest = sorted(content.get("discrepancy", []), key=lambda one: -one["size"])[:most]
+    largest = sorted(content["discrepancy"], key=lambda one: -one["size"])[:most]
     if 1 < specimens < MANY_SPECIMENS and any(one["specimen"] is not None for one in largest):
         said.append(f"{specimens} specimens are too few to tell which one is odd")
     return said
@@ -82,7 +82,7 @@ def remarks(content: Content, most: int = LARGEST) -> list[str]:
 
 def _largest(content: Content) -> list[str]:
     """The mean residual that is left over most, where a slope over temperature has no meaning."""
-    found = [one for one in content.get("unexplained", []) if "specimen" not in one][:1]
+    found = [one for one in content["unexplained"] if "specimen" not in one][:1]
     return [
         f"{abs(one['residual_E_percent']):.1f} % in |E*| and {abs(one['residual_phase_deg']):.1f} deg in the phase at "
         f"{one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
@@ -99,7 +99,7 @@ def _part_left(one: Content, content: Content) -> str:
     size = f"{size} of {specimen_named(one['specimen'])}"
     if one["kind"] == "spectrum":
         return f"{size}: its master curve has another shape than the common one"
-    whole = [odd["specimen"] for odd in content.get("odd_phases", []) if odd["temperature_C"] is None]
+    whole = [odd["specimen"] for odd in content["odd_phases"] if odd["temperature_C"] is None]
     if one["part"] == "phase" and one["specimen"] in whole:
         return f"{size}, most of it alike in all its tests"
     return f"{size}, changing with frequency and temperature"

@@ -34,7 +34,7 @@ MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above wh
 
 def mixes(content: Content) -> str:
     """That specimens are hardly of one mix: |E*| scatters between them by more than ONE_MIX percent; else empty."""
-    spread = (content.get("repeatability") or {}).get("between")
+    spread = (content["repeatability"] or {}).get("between")
     if spread is None or spread["E_percent"] <= levels.ONE_MIX:
         return ""
     return (
@@ -104,7 +104,7 @@ def two_laws(content: Content) -> list[str]:
     misses = content.get("law_misses")
     if misses is None or not named(content, LAW) or bonded(content):
         return []
-    kept = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung.get("taken_off", True)]
+    kept = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung["taken_off"]]
     are, them = ("is", "it") if len(kept) == 1 else ("are", "them")
     not_certain = f"{are} not certain, so law.json is not corrected for {them}."
     doubtful = f" {joined(kept).capitalize()} {not_certain}" * bool(kept)
@@ -183,7 +183,7 @@ def _beyond_bonds(content: Content) -> str:
         return "and nobody knows how much of that is scatter"
     fits = content["verdict"] == "explained" or not sentences.more_than_scatter(content)
     causes = [rung for rung in content["ladder"] if rung["cause"] not in (LAW, BOND_MAPPING)]
-    sure = all(rung.get("established", True) for rung in causes)
+    sure = all(rung["established"] for rung in causes)
     within = " within specimens" if content["scatter"]["from_replicates"] else ""
     scatter = "no more than scatter can explain" if fits else f"more than scatter{within} can explain"
     by = "" if sure or not fits else ", but not every cause is certain"
@@ -239,7 +239,7 @@ def _two(error: float) -> str:
 
 def _wrong(temperature: float, content: Content) -> bool:
     """Whether a cause is named at an isotherm, or the isotherm contradicts itself."""
-    broken = [one["temperature_C"] for one in content.get("contradictory_isotherms", [])]
+    broken = [one["temperature_C"] for one in content["contradictory_isotherms"]]
     return temperature in [*broken, *(rung.get("where") for rung in content["ladder"])]
 
 

@@ -104,11 +104,11 @@ def sections(
         "law": law(content, curve),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
         "limits": _limits(content["detection_limits"]),
-        "limits_caption": _limits_caption(content.get("estimates_spread", 1.0)),
+        "limits_caption": _limits_caption(content["estimates_spread"]),
         "not_testable": [(member_name(row["cause"]), row["needs"]) for row in content["not_testable"]],
         "alike": [_members(group) for group in content["indistinguishable"]],
         "notes": [*content.get("reading", {}).get("notes", []), *content["notes"]],
-        "suspects": [_suspect(one) for one in content.get("suspect_tests", [])],
+        "suspects": [_suspect(one) for one in content["suspect_tests"]],
         "withdrawn": _members(content["withdrawn"]),
         "confirmed_by": [
             (_cause(rung), rung["confirmed_by"]) for rung in rungs if rung["cause"] != BOND_MAPPING
@@ -124,9 +124,7 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
     left = left_by_the_last(read_ladder(ladder)) if ladder else None
     none = {"orders": [], "costs": ""}
     # nobody can test again a specimen that never was
-    found = (
-        none if "reconstructed" in content.get("origin", "measured") else content.get("instructions", none)
-    )
+    found = none if "reconstructed" in content["origin"] else content["instructions"]
     return {
         "answer": brief.rows(content, left),
         "simulated": verdict.on_simulation(content, left),
@@ -225,8 +223,8 @@ def _rung(rung: dict[str, Any], last: bool, content: dict[str, Any]) -> dict[str
         "p": _chance(rung["p_value"]),
         "evidence": rung.get("evidence"),
         "parameters": [_estimate(name, value, factor) for name, value in rung["parameters"].items()],
-        "hangs_on": rung.get("hangs_on", []),
-        "doubts": rung.get("doubts", []),
+        "hangs_on": rung["hangs_on"],
+        "doubts": rung["doubts"],
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {
             HELD_OUT[name] + _warning(last, gain["held_out"][name], name == INNER): _gain(

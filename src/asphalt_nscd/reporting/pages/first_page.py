@@ -59,7 +59,7 @@ def first_page(
     return {
         "lead": _lead(content, way, gained, told["orders"]),
         "bars": _bars(gained),
-        "data": _heading(content.get("origin", "measured")),
+        "data": _heading(content["origin"]),
         "measured": [*_measured(moduli), *sentences.origin(content), scatter(content)],
         "simulated": _simulated(tests, _frame(samples, "samples")),
         "wrong": _wrong(way),
@@ -84,14 +84,14 @@ def _lead(
     unsure: list[str] = []
     for rung in content["ladder"]:
         words = ONE_LAW if rung["cause"] == sentences.LAW else sentences.cause_words(rung)
-        (sure if rung.get("established", True) else unsure).append(words)
+        (sure if rung["established"] else unsure).append(words)
     why = [f"{joined(sure)}: established"] if sure else []
     why += [f"{joined(unsure)}: likely, not certain"] if unsure else []
     said = in_type("; ".join(why))
     # The scatter stands in the last row, below the rungs.
     last, scatter_of_one = gained[-2], gained[-1]
     act = in_type(orders[0]["text"]) if orders else ""
-    invented = "reconstructed" in content.get("origin", "measured")
+    invented = "reconstructed" in content["origin"]
     if invented:
         act = "Get the measurements of the paper's figures: these data are reconstructed, nobody can test them again."
     return [
