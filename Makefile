@@ -5,10 +5,9 @@
 #   make test       the tests
 #   make test-fast  the tests without the slow ones
 #   make lint       ruff, snakefmt and mypy
-#   make blind      blind tests of the diagnosis: hidden effects, found or not; in the real tables of a folder
-#                   too, if ASPHALT_NSCD_TABLES names it
-#   make attack     a second program against the diagnosis, with tables as laboratories produce them: half an hour
-#                   of a core; config/attack.yaml says how many tables
+#   make attack     hidden faults, found or not: in tables as laboratories produce them, in measured ones (also those of
+#                   the folder that ASPHALT_NSCD_TABLES names) and inside NSCD runs: an hour of a core;
+#                   config/attack.yaml says how many tables
 #   make verify     the core against theory: results/verification/verification.csv
 #   make check      published results made again where that is cheap, and compared: minutes
 #   make faults     what must not lose or falsify a result: results/faults/faults.csv, half an hour
@@ -44,7 +43,7 @@ ifeq ($(filter study,$(MAKECMDGOALS))$(shell test -f "$(CONFIG)" && echo found),
 $(error $(or $(CONFIG),CONFIG): no such file; give a study with CONFIG=my.yaml)
 endif
 
-.PHONY: paper smoke blind attack study test lint verify check faults fuzz cluster benchmark api docs test-fast
+.PHONY: paper smoke attack study test lint verify check faults fuzz cluster benchmark api docs test-fast
 
 paper: $(READY)
 	@.venv/bin/snakemake --logger steps --cores $(CORES) --configfile config/paper.yaml
@@ -52,13 +51,9 @@ paper: $(READY)
 smoke: $(READY)
 	@.venv/bin/snakemake --logger steps --cores $(CORES) --configfile config/smoke.yaml
 
-blind: $(READY)
-	@.venv/bin/snakemake blind --logger steps --cores $(CORES) --configfile config/blind.yaml
-	@cat results/blind/summary.csv results/blind/real_summary.csv
-
 attack: $(READY)
 	@.venv/bin/snakemake attack --logger steps --cores $(CORES) --configfile config/paper.yaml config/attack.yaml
-	@cat results/attack/summary.csv
+	@cat results/attack/summary.csv results/attack/inside_summary.csv
 
 study: $(READY)
 	@.venv/bin/snakemake --logger steps --cores $(CORES) --configfile $(CONFIG)

@@ -2,7 +2,7 @@
 
 python benchmarks/diagnosis.py NUMBER... --output ROWS.csv
 
-The tables are drawn like real ones (trials/blind/reallike.py), two hot isotherms break causality: more is left than
+The tables are drawn like real ones (trials/drawn/reallike.py), two hot isotherms break causality: more is left than
 scatter, so that every cause is judged beside a discrepancy.
 """
 
@@ -22,13 +22,13 @@ import asphalt_nscd
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "trials"))
 
-from blind.design import factorial
-from blind.laws import draw_law
-from blind.reallike import KINDS, Sizes
+from drawn.design import factorial
+from drawn.laws import draw_law
+from drawn.reallike import KINDS, Sizes
 
 TOPIC = "diagnosis"
 SEED = 7
-SIZES = Sizes(0.02, np.radians(0.4), 0.04, 0.02, 0.012)
+SIZES = Sizes(0.02, np.radians(0.4), 0.04, 0.012)
 # The program of this package, not of another one that is installed.
 SOURCE = str(Path(asphalt_nscd.__file__).parents[1])
 START = f"import sys; sys.path.insert(0, {SOURCE!r}); from asphalt_nscd.cli import main; main()"

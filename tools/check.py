@@ -39,7 +39,6 @@ RULES = (
 PUBLISHED = (
     "attack",
     "benchmark",
-    "blind",
     "calls",
     "cluster",
     "fall",

@@ -6,7 +6,7 @@ The reconstructed measurements are drawn from 2S2P1D with a WLF shift, and the e
 are the same design and scatter about another mix: Huet-Sayegh with an Arrhenius shift, a ladder of Maxwell branches
 whose weights are skewed with a WLF shift, or Havriliak-Negami with a quadratic shift. Huet-Sayegh is 2S2P1D without its
 dashpot, and Arrhenius is WLF with C2 = 288 K at 15 degC, so that only the others are outside the fitted family. The
-laws are those of the blind tests; nothing of the package under test is imported.
+laws are those of `drawn`; nothing of the package under test is imported.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from blind.laws import CENTRES, Law
+from drawn.laws import CENTRES, Law
 
 SHIFTS = {
     "huet_sayegh": ("arrhenius", {"energy": 200e3}),  # J/mol

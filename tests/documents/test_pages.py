@@ -82,8 +82,6 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
         ("bond_readings", "paper/bond_readings"),
         ("reconstructions", "paper/reconstructions"),
         ("attack", "attack/summary"),
-        ("blind", "blind/summary"),
-        ("blind_real", "blind/real_summary"),
         ("wrong_recipes", "forecast/wrong_recipes"),
         ("forecast_blind", "forecast/blind_overall"),
         ("benchmark", "benchmark/beside"),
@@ -101,9 +99,6 @@ def test_layouts_name_columns_that_are_published(block, table):
     ("block", "table"),
     [
         ("attack", "attack/summary"),
-        ("blind", "blind/summary"),
-        ("blind_real", "blind/real_summary"),
-        ("blind_reported", "blind/reported_summary"),
         ("machines", "attack/machines_summary"),
     ],
 )

@@ -77,7 +77,7 @@ def test_a_folder_that_is_gone_and_one_too_many_are_named(copy):
     shutil.rmtree(copy / "faults")
     (copy / "notes.txt").touch()
     stray, gone = CHECK["_checksums"](copy)
-    assert stray.startswith(f"{copy / 'notes.txt'}: is not one of attack, benchmark, blind")
+    assert stray.startswith(f"{copy / 'notes.txt'}: is not one of attack, benchmark, calls")
     assert gone == f"{copy / 'faults/SHA256SUMS'}: is missing"
 
 

@@ -74,6 +74,22 @@ def tables(lines: tuple[Path, ...], before: Path | None, folder: Path) -> None:
 
 
 @main.command()
+@click.argument("models", nargs=-1, required=True, type=File)
+@click.option("--folder", required=True, type=File)
+def inside(models: tuple[Path, ...], folder: Path) -> None:
+    """Hide faults inside NSCD runs on the paper's specimens, MODELS as `condense` makes them."""
+    import pandas as pd
+
+    from asphalt_nscd.files.store import write_table
+
+    from . import inside, rates
+
+    rows = pd.DataFrame([row for number in range(inside.MIXES) for row in inside.tried(number, models)])
+    write_table(folder / "inside.csv", rows)
+    write_table(folder / "inside_summary.csv", rates.inside(rows))
+
+
+@main.command()
 @click.argument("number", type=int)
 @click.option("--folder", required=True, type=File)
 def machines(number: int, folder: Path) -> None:

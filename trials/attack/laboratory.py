@@ -121,7 +121,7 @@ def invented(number: int, seed: int) -> Campaign:
             )
             tests.loc[part, "order"] = np.argsort(np.argsort(key)) + 1
     mix = Mix.draw(law, shift, rng)
-    campaign = _everyday(f"table {number + 1}", bench, tests, mix, rng)
+    campaign = everyday(f"table {number + 1}", bench, tests, mix, rng)
     turn = max(0, number // DESIGNS_AND_BENCHES - 2)  # from the 25th on in other designs
     if (number + turn) % BROKEN_EVERY == 3:
         campaign = _broken(campaign, rng)
@@ -130,7 +130,7 @@ def invented(number: int, seed: int) -> Campaign:
     return campaign
 
 
-def _everyday(name: str, bench: str, tests: pd.DataFrame, mix: Mix, rng: np.random.Generator) -> Campaign:
+def everyday(name: str, bench: str, tests: pd.DataFrame, mix: Mix, rng: np.random.Generator) -> Campaign:
     """Errors that no laboratory is without."""
     n = len(tests)
     t, f = (tests[column].to_numpy(float) for column in ("temperature_C", "frequency_Hz"))

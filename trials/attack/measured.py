@@ -15,7 +15,7 @@ import pandas as pd
 from .laboratory import BENDING, CYLINDER, Campaign
 from .mixes import Complex, Vector
 
-FOLDER = "ASPHALT_NSCD_TABLES"  # as for `make blind`: a folder of tables that may not be shipped
+FOLDER = "ASPHALT_NSCD_TABLES"  # a folder of tables that may not be shipped
 SHIPPED = Path(__file__).parents[2] / "data/ncat"
 NAMES = {"replicate": "specimen", "T_C": "temperature_C", "f_Hz": "frequency_Hz", "phi_deg": "phase_deg"}
 COLUMNS = ["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]

@@ -50,7 +50,10 @@ Limits = Mapping[str, Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Case:
-    """suite: nothing, catalogue, pair, outside, place or slip; ratio: size over its limit, NaN where none counts."""
+    """suite: nothing, catalogue, pair, outside, place, slip or inside (an NSCD run).
+
+    ratio: size over its limit, NaN where none counts.
+    """
 
     suite: str
     faults: tuple[Fault, ...] = ()
@@ -83,6 +86,13 @@ def cases(campaign: Campaign, number: int, limits: Limits, of_one_place: Limits)
     yield Case("slip", (_slip(campaign, SLIPS[number % len(SLIPS)], rng),))
     if len(campaign.tests["frequency_Hz"].unique()) > 3:
         yield Case("slip", (_slip(campaign, "masked pair of bad tests", rng),))
+
+
+def at_three_limits(campaign: Campaign, cause: str, limits: Limits, rng: np.random.Generator) -> Fault | None:
+    """A cause at three limits; None where it has no limit or that is not physical."""
+    if not _drawable(campaign, cause, limits):
+        return None
+    return _scaled(_limit(campaign, cause, limits, rng), AT_ONCE)
 
 
 def _drawable(campaign: Campaign, cause: str, limits: Limits) -> bool:

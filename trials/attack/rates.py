@@ -166,6 +166,24 @@ def summary(rows: pd.DataFrame, names: pd.DataFrame, before: pd.DataFrame | None
     return table
 
 
+def inside(rows: pd.DataFrame) -> pd.DataFrame:
+    """The criteria of faults inside NSCD runs."""
+    put, empty = (rows[rows["suite"] == suite] for suite in ("inside", "nothing"))
+    return pd.DataFrame(
+        [
+            line("inside NSCD runs at 3 limits: named", ">= 95 %", put["named"], low=0.95),
+            line("the same: a wrong name with confidence", "none", put["wrong_confident"] > 0, high=0.0),
+            line(
+                "nothing put in: a name",
+                "none",
+                empty[["wrong_confident", "wrong_possible"]].sum(axis=1) > 0,
+                high=0.0,
+            ),
+            line("size in its 95 % interval", "reported", put["covered"]),
+        ]
+    )
+
+
 def line(what: str, target: str, hits: Iterable[Any], low: float = 0.0, high: float = 1.0) -> dict[str, Any]:
     """A row of a summary: a rate, its interval, and whether it is met."""
     found = rate(hits)

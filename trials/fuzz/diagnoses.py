@@ -22,7 +22,7 @@ from pathlib import Path
 
 import click
 import pandas as pd
-from blind.score import rate
+from attack.rates import rate
 
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.run import conclude

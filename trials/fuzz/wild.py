@@ -1,6 +1,6 @@
 """Tables that are valid and wild: whatever a machine, a mix or a spreadsheet may do to moduli and phases.
 
-Each seed draws a mix of the blind campaign, a design from one test to three hundred, and some of the faults that
+Each seed draws a mix, a design from one test to three hundred, and some of the faults that
 real tables show, at sizes beyond real ones. Every value stays within the limits of a measurement table.
 """
 
@@ -10,13 +10,12 @@ from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
-from blind import reallike
-from blind.laws import draw_law
-from blind.reallike import KINDS, Sizes
+from drawn.laws import draw_law
+from drawn.reallike import KINDS, Sizes
 
 MOST_TESTS = 300
 MODULUS, PHASE = (0.11, 1.9e5), (-89.0, 89.9)  # MPa, deg: within the limits of a measurement table
-SIZES = Sizes(0.02, np.radians(0.5), 0.1, 0.05, 0.03)
+SIZES = Sizes(0.02, np.radians(0.5), 0.1, 0.03)
 BRANCH = (1e-4, 500.0)  # Hz, of a wild band
 
 Table = pd.DataFrame
@@ -179,7 +178,7 @@ def _no_pattern(table: Table, rng: Random) -> Table:
 
 
 FAULTS: dict[str, Callable[[Table, Random], Table]] = {
-    **{kind: _real_like(kind) for kind in reallike.KINDS if kind not in ("scatter", "mixed")},
+    **{kind: _real_like(kind) for kind in KINDS},
     "level_wobble": _level_wobble, "delay": _delay, "offset": _offset, "missing": _missing,
     "one_specimen": _one_specimen, "two_frequencies": _two_frequencies, "scaled": _scaled, "elastic": _elastic,
     "viscous": _viscous, "nearly_equal": _nearly_equal, "unsorted": _unsorted, "rounded": _rounded,

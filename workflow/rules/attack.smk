@@ -1,4 +1,4 @@
-# A second program against the diagnosis: tables as laboratories produce them, faults put in, and what is said of them.
+# A program against the diagnosis: tables as laboratories produce them, faults put in, and what is said of them.
 #   make attack
 #   snakemake attack --cores all --configfile config/paper.yaml config/attack.yaml
 # Faults are put into NCAT's measured tables too, and into those of the folder that ASPHALT_NSCD_TABLES names.
@@ -73,3 +73,22 @@ rule attack_machines:
         "Pool the campaigns of {params.number} machines"
     shell:
         ATTACK_COMMAND + " machines {params.number} --folder results/attack > {log} 2>&1"
+
+
+rule attack_inside:
+    """Faults inside simulated tests on the specimens of the study."""
+    input:
+        compiled="<results>/compiled/simulate",
+        models=expand(f"{model()}.h5", sample=SAMPLES),
+        code=code("simulate"),
+        diagnosis=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=ATTACK_CODE,
+    output:
+        rows="results/attack/inside.csv",
+        summary="results/attack/inside_summary.csv",
+    log:
+        "results/attack/logs/inside.log",
+    message:
+        "Hide faults inside NSCD runs"
+    shell:
+        ATTACK_COMMAND + " inside {input.models} --folder results/attack > {log} 2>&1"

@@ -89,22 +89,13 @@ if ATTACK:
             *(f"{name}.csv" for name in ATTACK_TABLES),
             "figures/reliability.png",
             "campaign.json",
-            *(f"{name}.csv" for name in ("machines", "machines_summary", "machine_measured")),
+            *(
+                f"{name}.csv"
+                for name in ("machines", "machines_summary", "machine_measured", "inside", "inside_summary")
+            ),
         ],
         {"attack": "summary.csv", "machines": "machines_summary.csv", "machine_measured": "machine_measured.csv"},
     )
-if STUDY["study"] == "blind":
-    PUBLISHED["blind"] = Published(
-        "blind",
-        [
-            *(f"{name}.csv" for name in ["reported", "reported_summary", *RATES, *REAL_RATES]),
-            *(f"figures/{name}.png" for name in BLIND_FIGURES),
-            "campaign.json",
-            "real_campaign.json",
-        ],
-        {"blind": "summary.csv", "blind_real": "real_summary.csv", "blind_reported": "reported_summary.csv"},
-    )
-
 for name, told in PUBLISHED.items():
     folder = f"results/{told.folder}"
     blocks = [f"--block {block}={folder}/{table}" for block, table in told.blocks.items()]

@@ -2,8 +2,8 @@
 
 What tunes one computation alone stands beside it in its own module: most in `screening`, as what makes a test suspect.
 
-Each cause carries its own chance and usual size (`causes/`). "Drawn tables" are those of `trials/blind` and
-`trials/attack`; docs/trust.md has what they give.
+Each cause carries its own chance and usual size (`causes/`). "Drawn tables" are those of `trials/attack` and of a
+program like it that is gone; docs/trust.md has what the attack gives.
 """
 
 from __future__ import annotations

@@ -143,58 +143,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             }
         ),
     ],
-    "blind": [
-        Layout(
-            _CRITERIA,
-            where={"met": ("yes", "no")},
-            but={
-                "what": (
-                    "false alarms, upper 95 % bound",
-                    "held-out error of single tests falls where named",
-                    "the same over the scatter of one test",
-                )
-            },
-            shorter={
-                "found, at 3 times the limit": "found",
-                "named rightly among the found, at 3 times the limit": "of these, named rightly",
-                "outside the catalogue: unexplained, at 3 times the limit": "outside the catalogue: unexplained",
-                "outside the catalogue: confident wrong name, at 3 times the limit": (
-                    "outside the catalogue: confident wrong name"
-                ),
-                "the same of averages over specimens, for causes that reach all of them": (
-                    "error of held-out averages falls where named"
-                ),
-                "causes whose removal leaves their effects unexplained (80 %), not misnamed (10 %)": (
-                    "removed causes: unexplained, not misnamed"
-                ),
-            },
-        )
-    ],
-    "blind_real": [
-        Layout(
-            _CRITERIA,
-            where={"met": ("yes", "no")},
-            shorter={
-                "real tables, offset and delay at 3 and 6 limits: named": "offset and delay, 3 and 6 limits: named",
-                "the same: size grew by what was put in, within its interval": "the same: growth within its interval",
-                "the same, over its size with the same tests and causes": "the same, over its size",
-                "the same: a wrong name instead": "the same: a wrong name",
-                "all causes at 3 times the limit: named": "all causes at 3 limits: named",
-                "false names added, any cause and ratio": "false names added",
-                "tables without a cause: misnamed with confidence": "no cause: misnamed with confidence",
-            },
-        )
-    ],
-    "blind_reported": [
-        Layout(
-            _CRITERIA,
-            shorter={
-                "modulus of the mix at 15 degC, 10 Hz within its 95 % interval": "modulus within its 95 % interval",
-                "phase of the mix at 15 degC, 10 Hz within its 95 % interval": "phase within its 95 % interval",
-                "corrected tests diagnosed again: no new name": "corrected and diagnosed again: no new name",
-            },
-        )
-    ],
     "machines": [Layout(_CRITERIA, where={"met": ("yes", "no")})],
     "machine_measured": [
         Layout(

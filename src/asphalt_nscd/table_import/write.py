@@ -34,7 +34,6 @@ from asphalt_nscd.table_import.grid import grid
 from asphalt_nscd.table_import.spheres import PAPER, SMALLEST_MM, Spheres, read_grading, spheres_for
 
 SCHEMA = Path(__file__).resolve().parents[3] / "workflow/schemas/study.schema.yaml"
-TAKEN = (*RESERVED, "blind")
 
 STEPS_PER_CYCLE = 500  # of the paper's highest frequency, 40 Hz
 COARSEST_STEP = 2e-4  # s, of those in Fig. 6
@@ -139,10 +138,10 @@ def _require_free(name: str, config: Path, folder: Path) -> None:
         )
     pattern = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))["properties"]["study"]["pattern"]
     # NAME is written bare, and bare `on` or `null` is no text in YAML.
-    if not re.fullmatch(pattern.strip("^$"), name) or name in TAKEN or yaml.safe_load(name) != name:
+    if not re.fullmatch(pattern.strip("^$"), name) or name in RESERVED or yaml.safe_load(name) != name:
         raise InputError(
             f"NAME {name!r}: give letters, digits, - and _, the first a letter, and none of "
-            f"{', '.join(TAKEN)}, and no word with a meaning of its own in YAML, such as true or null."
+            f"{', '.join(RESERVED)}, and no word with a meaning of its own in YAML, such as true or null."
         )
     for path in (config, folder):
         if path.exists():

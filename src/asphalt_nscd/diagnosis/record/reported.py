@@ -99,7 +99,7 @@ def standard_errors(slope: NDArray[np.float64], covariance: NDArray[np.float64])
 def freedom_of(diagnosis: Diagnosis) -> tuple[float, float]:
     """Degrees of freedom of the standard errors of the mix: of |E*| and of the phase."""
     freedom = diagnosis.noise.freedom
-    # Taken for known, the scatter of two to four specimens held the mix in 88 to 89 % of blind tables, not 95.
+    # Taken for known, the scatter of two to four specimens held the mix in 88 to 89 % of drawn tables, not 95.
     return min(freedom, SCALE_FREEDOM + len(diagnosis.observed.names) - 1), freedom
 
 

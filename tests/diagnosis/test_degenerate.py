@@ -1,16 +1,19 @@
 """Data that say little, or are wrong: a clear sentence or a diagnosis that states its limits, no wrong name."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
-from blind.design import factorial
-from blind.generator import Hidden, draw
-from blind.sealed import open_case
+from drawn.design import factorial, scattered
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE as NAMEABLE
+from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.record.report import as_json
 from asphalt_nscd.diagnosis.run import conclude
+from asphalt_nscd.diagnosis.search.diagnose import diagnose
+from asphalt_nscd.diagnosis.simulation.simulated import read_specimen
 from asphalt_nscd.files.errors import InputError
 
 pytestmark = pytest.mark.slow
@@ -18,8 +21,15 @@ pytestmark = pytest.mark.slow
 NO_REPLICATE = "No condition was repeated on another specimen"
 
 
-def diagnosed(table, geometry, **options):
-    found = open_case(table, geometry, **options)
+@pytest.fixture(autouse=True)
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def diagnosed(table):
+    table.to_csv("measured.csv", index=False)
+    observed, _ = read_observations("measured.csv", PAPER_GEOMETRY)
+    found = as_json(diagnose(replace(observed, test_type="bending")), read_specimen())
     return found, {(rung["cause"], rung["where"]) for rung in found["ladder"]} - {
         ("relaxation_spectrum", None)
     }
@@ -27,7 +37,7 @@ def diagnosed(table, geometry, **options):
 
 @pytest.fixture(scope="module")
 def full():
-    return draw(5, form="moduli")
+    return scattered(5, factorial())
 
 
 SMALL = {
@@ -42,26 +52,27 @@ SMALL = {
 
 @pytest.mark.parametrize("design", SMALL.values(), ids=SMALL)
 def test_small_designs_name_nothing_that_is_not_there(design):
-    empty = draw(1, design=factorial(**design))
-    found, named = diagnosed(empty.table, empty.geometry)
+    table = scattered(1, factorial(**design))
+    found, named = diagnosed(table)
     assert named == set() and found["verdict"] != "unexplained_structure"
     assert found["detection_limits"]
-    if design.get("specimens") or len(empty.table) < 9:
+    if design.get("specimens") or len(table) < 9:
         assert any(NO_REPLICATE in note for note in found["notes"])
 
 
 @pytest.mark.parametrize("design", SMALL.values(), ids=SMALL)
 def test_small_designs_find_what_is_there_or_nothing(design):
-    late = draw(1, [Hidden("channel_delay", amplitude=3e-4)], design=factorial(**design))
-    assert diagnosed(late.table, late.geometry)[1] <= {("channel_delay", None)}
+    table = scattered(1, factorial(**design))
+    late = table.assign(phase_deg=table["phase_deg"] + 360.0 * 3e-4 * table["frequency_Hz"])
+    assert diagnosed(late)[1] <= {("channel_delay", None)}
 
 
 @pytest.mark.parametrize("temperatures", [(15.0,), (0.0, 15.0)])
 def test_on_few_temperatures_a_name_is_the_likeliest_and_never_sure(temperatures):
     """A gain over the logarithm of the frequency, which the catalogue lacks, passes for an offset of the phase."""
-    drawn = draw(5, design=factorial(temperatures=temperatures), form="moduli")
-    gain = 1.0 + 0.04 * np.log10(drawn.table["frequency_Hz"])
-    found, named = diagnosed(drawn.table.assign(E_MPa=drawn.table["E_MPa"] * gain), drawn.geometry)
+    table = scattered(5, factorial(temperatures=temperatures))
+    gain = 1.0 + 0.04 * np.log10(table["frequency_Hz"])
+    found, named = diagnosed(table.assign(E_MPa=table["E_MPa"] * gain))
     assert named and found["verdict"] == "unexplained_structure"
     assert any("not established" in note and "temperatures" in note for note in found["notes"])
 
@@ -69,61 +80,58 @@ def test_on_few_temperatures_a_name_is_the_likeliest_and_never_sure(temperatures
 def test_one_specimen_makes_no_sure_name():
     """A part in phase with E*, the same in all tests, passes for friction at the guide."""
     for seed in (1, 2, 3):
-        drawn = draw(seed, design=factorial(specimens="A"), form="moduli")
-        modulus = drawn.table["E_MPa"]
-        found, named = diagnosed(drawn.table.assign(E_MPa=modulus * (1.0 + 60.0 / modulus)), drawn.geometry)
+        table = scattered(seed, factorial(specimens="A"))
+        found, named = diagnosed(table.assign(E_MPa=table["E_MPa"] + 60.0))
         assert not named or found["verdict"] == "unexplained_structure"
         assert not named or any("nothing was repeated" in note for note in found["notes"])
 
 
 def test_two_frequencies_that_no_common_law_fits_are_not_all_right():
-    table = draw(1, design=factorial(frequencies=(3.0, 40.0)), form="moduli")
-    phase = table.table["phase_deg"] + 5.0
-    found, named = diagnosed(table.table.assign(phase_deg=phase), table.geometry)
+    table = scattered(1, factorial(frequencies=(3.0, 40.0)))
+    found, named = diagnosed(table.assign(phase_deg=table["phase_deg"] + 5.0))
     assert named == set() and found["verdict"] == "unexplained_structure"
 
 
 def test_without_a_common_law_the_mix_is_still_reported_and_said_to_be_less_certain(tmp_path):
-    drawn = draw(1, design=factorial(frequencies=(3.0, 40.0)), form="moduli")
-    table = drawn.table.assign(phase_deg=drawn.table["phase_deg"] + 5.0)
+    table = scattered(1, factorial(frequencies=(3.0, 40.0)))
+    table["phase_deg"] += 5.0
     table.to_csv(tmp_path / "measured.csv", index=False)
-    conclude(tmp_path / "measured.csv", drawn.geometry).written(tmp_path)
+    conclude(tmp_path / "measured.csv", PAPER_GEOMETRY).written(tmp_path)
     content = json.loads((tmp_path / "diagnosis.json").read_text(encoding="utf-8"))
     assert any("less certain than it says" in note for note in content["notes"])
     near = table[(table["temperature_C"] == 15.0) & (table["frequency_Hz"] == 40.0)]["E_MPa"].mean()
     assert 0.5 * near < content["reported"]["E_MPa"] < near
 
 
-def test_limits_beyond_what_is_physical_are_none(full):
+def test_limits_beyond_what_is_physical_are_none():
     for design in ({"frequencies": (3.0, 40.0)}, {"temperatures": (15.0,)}):
-        drawn = draw(1, design=factorial(**design))
-        limits = diagnosed(drawn.table, drawn.geometry)[0]["detection_limits"]
+        limits = diagnosed(scattered(1, factorial(**design)))[0]["detection_limits"]
         for cause in NAMEABLE:
             most = max(abs(cause.parameters[0].low), abs(cause.parameters[0].high))
             assert limits.get(cause.name, {"value": 0.0})["value"] <= most
 
 
 def test_copies_are_no_replicates(full):
-    one = full.table[full.table["specimen"] == "A"]
-    copies = pd.concat([one, one.assign(specimen="E"), full.table[full.table["specimen"] == "B"]])
+    one = full[full["specimen"] == "A"]
+    copies = pd.concat([one, one.assign(specimen="E"), full[full["specimen"] == "B"]])
     with pytest.raises(InputError, match=r"specimens A and E have the same modulus at all 30 conditions"):
-        diagnosed(copies, full.geometry)
+        diagnosed(copies)
 
 
 @pytest.mark.parametrize(
     ("column", "change"), [("E_MPa", lambda v: 3.0 * v), ("phase_deg", lambda v: v + 20.0)]
 )
 def test_an_outlier_is_set_aside_and_not_named(full, column, change):
-    table = full.table.copy()
+    table = full.copy()
     table.loc[37, column] = change(table.loc[37, column])
-    found, named = diagnosed(table, full.geometry)
+    found, named = diagnosed(table)
     assert named == set() and found["verdict"] == "explained"
 
 
 def test_an_outlier_without_replicates_is_not_named(full):
-    table = full.table[full.table["specimen"] == "A"].reset_index(drop=True)
+    table = full[full["specimen"] == "A"].reset_index(drop=True)
     table.loc[12, "E_MPa"] *= 1.5
-    assert diagnosed(table, full.geometry)[1] == set()
+    assert diagnosed(table)[1] == set()
 
 
 WRONG = {
@@ -147,9 +155,9 @@ WRONG = {
 @pytest.mark.parametrize(("spoil", "sentence"), WRONG.values(), ids=WRONG)
 def test_wrong_tables_are_refused_in_a_sentence(full, spoil, sentence):
     with pytest.raises(InputError, match=sentence):
-        diagnosed(spoil(full.table.copy()), full.geometry)
+        diagnosed(spoil(full.copy()))
 
 
 def test_one_modulus_for_all_temperatures_gets_no_name(full):
-    table = full.table[full.table["specimen"] == "A"].assign(E_MPa=1e4, phase_deg=10.0)
-    assert diagnosed(table, full.geometry)[1] == set()
+    table = full[full["specimen"] == "A"].assign(E_MPa=1e4, phase_deg=10.0)
+    assert diagnosed(table)[1] == set()

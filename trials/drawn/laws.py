@@ -1,4 +1,4 @@
-"""Truth laws of the blind tests: spectra that the diagnosis does not fit, each with its own shift.
+"""Truth laws of drawn tables: spectra that the diagnosis does not fit, each with its own shift.
 
 The centres are of the order of what is printed for real mixes (Olard & Di Benedetto 2003 for 2S2P1D,
 the Huet-Sayegh examples of the LCPC), rounded and recalled, not copied from a table; the other two

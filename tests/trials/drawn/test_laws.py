@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from blind.laws import KELVIN, SHAPES, STIFF_CORNER, Law, draw_law
+from drawn.laws import KELVIN, SHAPES, STIFF_CORNER, Law, draw_law
 
 OMEGA = 2.0 * np.pi * np.logspace(-6, 6, 400)
 
