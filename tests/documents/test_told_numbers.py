@@ -161,6 +161,12 @@ def test_no_row_of_the_verification_failed():
     assert "Rows that passed; none failed:" in page("core")
 
 
+def test_what_the_attack_finds_inside_runs():
+    cases = published("attack/inside").query("suite == 'inside'")
+    told = f"{cases.named.sum()} of {len(cases)} faults of three limits are named, none wrongly"
+    assert f"{told}; {cases.covered.sum()} sizes" in page("trust") and not cases.wrong_names.notna().any()
+
+
 def test_what_the_attack_finds():
     text, cases = page("trust"), published("attack/cases")
     found = cases[(cases.suite == "catalogue") & (cases.ratio == 3) & ~cases.measured]
