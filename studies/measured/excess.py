@@ -28,12 +28,17 @@ QUARTER = 0.5 * np.pi  # phase [rad] of a power law with an exponent of 1
 
 
 @cache
-def excess_read(programme: Programme = PROGRAMME) -> np.ndarray:
-    """Phase [rad] above that of the law, (k,), for power laws of the exponents EXPONENTS."""
+def _read(programme: Programme = PROGRAMME) -> np.ndarray:
+    """ln of what is read over E* (k,), for power laws of the exponents EXPONENTS: its imaginary part is phase [rad]."""
     band = 2.0 * np.pi * 1e-3, 2.0 * np.pi * 1e2
     chains = [kelvin_chain(partial(_power_law, exponent), *band)[0] for exponent in EXPONENTS]
-    read = np.array([modulus_as_read(chain, [1.0], programme)[0] for chain in chains])
-    return np.asarray(np.angle(read) - QUARTER * EXPONENTS)
+    seen = np.array([modulus_as_read(chain, [1.0], programme)[0] for chain in chains])
+    return np.log(seen / [_power_law(exponent, np.array([2.0 * np.pi]))[0] for exponent in EXPONENTS])
+
+
+def reading(exponent: np.ndarray) -> np.ndarray:
+    """ln of what a machine reads of power laws (n,) over their E*."""
+    return np.interp(exponent, EXPONENTS, _read())
 
 
 def _power_law(exponent: float, omega: np.ndarray) -> np.ndarray:
@@ -55,7 +60,6 @@ def isotherms(table: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
 
 def excess(population: str, mix: str, table: pd.DataFrame) -> pd.DataFrame:
     """One row for each test condition of a mix; `table` has temperature_C, frequency_Hz, E_MPa and phase_deg."""
-    read = excess_read()
     parts = []
     for temperature, at in isotherms(table):
         frequency, log_modulus, phase, count = (
@@ -69,7 +73,6 @@ def excess(population: str, mix: str, table: pd.DataFrame) -> pd.DataFrame:
         whole = constant_excess(
             frequency, np.array([log_modulus, phase]), np.array([modulus_scatter, phase_scatter]) ** 2, 0.0
         )
-        reading = np.interp(required.phase / QUARTER, EXPONENTS, read)
         parts.append(
             pd.DataFrame(
                 {
@@ -79,7 +82,7 @@ def excess(population: str, mix: str, table: pd.DataFrame) -> pd.DataFrame:
                     "frequency_Hz": frequency,
                     "measured_deg": np.degrees(phase - required.phase),
                     "standard_error_deg": np.degrees(np.hypot(required.std_error, phase_scatter)),
-                    "reading_deg": np.degrees(reading),
+                    "reading_deg": np.degrees(reading(required.phase / QUARTER).imag),
                     "isotherm_deg": np.degrees(whole[0]),
                     "isotherm_standard_error_deg": np.degrees(whole[1]),
                 }

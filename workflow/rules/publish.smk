@@ -45,7 +45,9 @@ PUBLISHED = {
         },
     ),
     "publish_measured": Published(
-        "measured", ["excess.csv", "budget.csv", "provenance.json"], {"excess_budget": "budget.csv"}
+        "measured",
+        ["ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png", "provenance.json"],
+        {"measured_means": "means.csv", "excess_budget": "budget.csv"},
     ),
     "publish_verification": Published(
         "verification",

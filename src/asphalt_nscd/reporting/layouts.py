@@ -267,6 +267,38 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             figures=3,
         ),
     ],
+    "measured_means": [
+        Layout(
+            {
+                "rung": "law",
+                "fitted": "fitted",
+                "E_percent": "modulus, %",
+                "phase_percent": "phase, %",
+                "left_out_isotherm_E_percent": "isotherm left out: modulus, %",
+                "left_out_isotherm_phase_percent": "phase, % of it",
+                "left_out_specimen_E_percent": "specimen left out: modulus, %",
+                "left_out_specimen_phase_percent": "its phase, %",
+            },
+            figures=3,
+        )
+    ],
+    "excess_budget": [
+        Layout(
+            {
+                "population": "population",
+                "temperature_C": "T, °C",
+                "mixes": "mixes",
+                "measured_deg": "measured, °",
+                "standard_error_deg": "standard error, °",
+                "reading_deg": "reading, °",
+                "correlation": "correlation",
+                "rms_deg": "rms, °",
+                "rms_less_reading_deg": "less reading, °",
+                "rms_less_mean_deg": "less its mean, °",
+            },
+            figures=3,
+        )
+    ],
     "forecast_blind": [
         Layout(
             {
