@@ -1,12 +1,11 @@
 """The excess phase of measured mixes, and how much of it is the machine's reading of a haversine that drifts.
 
-Nothing is fitted to a phase. What |E*| requires of the phase (Kramers and Kronig) gives the local exponent n of a power
-law. Read from rest without a term for the drift, such a linear mix shows a phase above 90 degrees times n. That is the
-prediction. It has no parameter but the number of cycles, those of a usual machine: ten, of which five are read.
-It is not blind: both populations were in sight when the mechanism was thought of.
+Nothing is fitted to a phase. One 2S2P1D law is fitted to the |E*| of a mix alone, with usual values of its parameters
+as a prior. The reading is what a machine makes of that law, exactly (`reading.py`). What is measured is the phase above
+what |E*| of the same isotherm requires (Kramers and Kronig), without a law. It is not blind: both populations were in
+sight when the mechanism was thought of.
 """
 
-from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -17,32 +16,26 @@ from asphalt_nscd.cli import run_script
 from asphalt_nscd.diagnosis.screening.excess_phase import constant_excess
 from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.rheology.as_run import Programme, modulus_as_read
-from asphalt_nscd.rheology.conversion import kelvin_chain
+from asphalt_nscd.rheology.priors import prior_of
+from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
+from studies.measured.reading import log_reading
 
-PROGRAMME = Programme(cycles=10, read=5)
 SCATTER = 0.02, np.radians(0.4)  # of ln|E*| and phase of one test, as usual in the nine NCAT campaigns
-EXPONENTS = np.linspace(0.02, 0.7, 18)
 LEAST = 3  # frequencies of an isotherm
-QUARTER = 0.5 * np.pi  # phase [rad] of a power law with an exponent of 1
+NO_PHASE = 1e3  # rad, as its standard deviation in a fit: it counts for nothing
+REFERENCE = 20.0  # degC
 
 
-@cache
-def _read(programme: Programme = PROGRAMME) -> np.ndarray:
-    """ln of what is read over E* (k,), for power laws of the exponents EXPONENTS: its imaginary part is phase [rad]."""
-    band = 2.0 * np.pi * 1e-3, 2.0 * np.pi * 1e2
-    chains = [kelvin_chain(partial(_power_law, exponent), *band)[0] for exponent in EXPONENTS]
-    seen = np.array([modulus_as_read(chain, [1.0], programme)[0] for chain in chains])
-    return np.log(seen / [_power_law(exponent, np.array([2.0 * np.pi]))[0] for exponent in EXPONENTS])
-
-
-def reading(exponent: np.ndarray) -> np.ndarray:
-    """ln of what a machine reads of power laws (n,) over their E*."""
-    return np.interp(exponent, EXPONENTS, _read())
-
-
-def _power_law(exponent: float, omega: np.ndarray) -> np.ndarray:
-    return np.asarray((1j * omega) ** exponent)
+def readings(means: list[tuple[float, pd.DataFrame]]) -> list[np.ndarray]:
+    """Phase [deg] that the machine adds at each frequency of each isotherm, by a law of |E*| alone."""
+    temperature = np.concatenate([np.full(len(at), value) for value, at in means])
+    omega = 2.0 * np.pi * np.concatenate([at.index.to_numpy() for _, at in means])
+    modulus = 1e6 * np.exp(np.concatenate([at["log_modulus"] for _, at in means])) + 0j
+    law = fit_spectrum(
+        omega, temperature, modulus, REFERENCE, prior=prior_of("2s2p1d"), weights=(SCATTER[0], NO_PHASE)
+    ).law
+    added = np.degrees(log_reading(law, omega, temperature).imag)
+    return [added[temperature == value] for value, _ in means]
 
 
 def isotherms(table: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
@@ -61,7 +54,8 @@ def isotherms(table: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
 def excess(population: str, mix: str, table: pd.DataFrame) -> pd.DataFrame:
     """One row for each test condition of a mix; `table` has temperature_C, frequency_Hz, E_MPa and phase_deg."""
     parts = []
-    for temperature, at in isotherms(table):
+    means = isotherms(table)
+    for (temperature, at), reading in zip(means, readings(means), strict=True):
         frequency, log_modulus, phase, count = (
             at.index.to_numpy(),
             at["log_modulus"].to_numpy(),
@@ -82,7 +76,7 @@ def excess(population: str, mix: str, table: pd.DataFrame) -> pd.DataFrame:
                     "frequency_Hz": frequency,
                     "measured_deg": np.degrees(phase - required.phase),
                     "standard_error_deg": np.degrees(np.hypot(required.std_error, phase_scatter)),
-                    "reading_deg": np.degrees(reading(required.phase / QUARTER).imag),
+                    "reading_deg": reading,
                     "isotherm_deg": np.degrees(whole[0]),
                     "isotherm_standard_error_deg": np.degrees(whole[1]),
                 }

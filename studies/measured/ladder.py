@@ -18,12 +18,12 @@ from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.fitting import fit_burgers
-from asphalt_nscd.rheology.spectrum import parameters
+from asphalt_nscd.rheology.spectrum import Spectrum, parameters
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
-from studies.measured.excess import QUARTER, reading
+from studies.measured.reading import log_reading
 
 REFERENCE = 20.0  # degC
-ROUNDS = 4  # of the fit of a law to what is read of it; the third changes the law by less than 1e-3
+ROUNDS = 3  # of the fit of a law to what is read of it
 LARGEST = -0.1, 0.2  # rad: an offset of -6 to 11 degrees
 Modulus = Callable[[np.ndarray, np.ndarray], np.ndarray]  # E* [Pa] at omega [rad/s] and temperature [degC]
 
@@ -51,29 +51,31 @@ def _line(place: float, at: np.ndarray, values: np.ndarray) -> float:
     return float(values[right - 1] + share * (values[right] - values[right - 1]))
 
 
-def one_law(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> tuple[Modulus, int]:
-    """One 2S2P1D law for all temperatures."""
+def spectrum(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> tuple[Spectrum, int]:
+    """One 2S2P1D law for all temperatures, and how many parameters it has."""
     form = Form(shift="wlf" if np.unique(temperature).size > 2 else "arrhenius")
     law = fit_spectrum(omega, temperature, modulus, REFERENCE, form).law
-    return law.complex_modulus, len(parameters(law)) + len(parameters(law.shift))
+    return law, len(parameters(law)) + len(parameters(law.shift))
+
+
+def one_law(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> tuple[Modulus, int]:
+    """The same, as a function of omega and temperature."""
+    law, fitted = spectrum(omega, temperature, modulus)
+    return law.complex_modulus, fitted
 
 
 def as_run(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> tuple[Modulus, int]:
     """The same law, fitted so that what the machine reads of it is what was measured."""
-    law, fitted = one_law(omega, temperature, modulus)
+    law, fitted = spectrum(omega, temperature, modulus)
     for _ in range(ROUNDS):
-        law, _ = one_law(omega, temperature, modulus / _read(law(omega, temperature)))
+        law, _ = spectrum(omega, temperature, modulus / np.exp(log_reading(law, omega, temperature)))
 
     def read(omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
-        true = law(omega, temperature)
-        return true * _read(true)
+        return np.asarray(
+            law.complex_modulus(omega, temperature) * np.exp(log_reading(law, omega, temperature))
+        )
 
     return read, fitted
-
-
-def _read(modulus: np.ndarray) -> np.ndarray:
-    """What the machine reads of E*, over E*: by the power law that has its phase."""
-    return np.exp(reading(np.angle(modulus) / QUARTER))
 
 
 def phase_offset(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> tuple[Modulus, int]:

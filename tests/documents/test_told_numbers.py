@@ -12,6 +12,8 @@ from asphalt_nscd.rheology.reconstruct import Sampling
 
 ROOT = Path(__file__).parents[2]
 
+LAWS = {"burgers": "% of |E\\*| ", "one_law": ""}
+
 
 def published(table: str) -> pd.DataFrame:
     return pd.read_csv(ROOT / f"results/published/{table}.csv")
@@ -199,3 +201,19 @@ def test_what_the_attack_finds():
     ):
         row = stated.loc[group]
         assert said.format(f"{row.hits:.0f} of {row.n:.0f}") in text
+
+
+def test_laws_of_measured_mixes():
+    table = published("measured/means").set_index("rung").round(1)
+    told = [f"{table.E_percent[rung]} {unit}and {table.phase_percent[rung]} %" for rung, unit in LAWS.items()]
+    assert f"by {told[0]} of the phase; one law for all temperatures by {told[1]}" in readme()
+
+
+def test_verdicts_on_the_paper():
+    verdicts = published("paper/audit").verdict.value_counts()
+    told = (
+        f"of {verdicts.sum()}, {verdicts.sum() - verdicts['not judged']} were judged; {verdicts['holds']} hold, "
+        f"{verdicts['reproduced']} are reproduced, {verdicts['inconsistent in itself']} contradict themselves, "
+        f"{verdicts['differs']} differ from ours"
+    )
+    assert told in readme()

@@ -275,9 +275,9 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
                 "E_percent": "modulus, %",
                 "phase_percent": "phase, %",
                 "left_out_isotherm_E_percent": "isotherm left out: modulus, %",
-                "left_out_isotherm_phase_percent": "phase, % of it",
+                "left_out_isotherm_phase_percent": "isotherm left out: phase, %",
                 "left_out_specimen_E_percent": "specimen left out: modulus, %",
-                "left_out_specimen_phase_percent": "its phase, %",
+                "left_out_specimen_phase_percent": "specimen left out: phase, %",
             },
             figures=3,
         )

@@ -46,13 +46,10 @@ def modulus_as_read(
     >>> abs(modulus_as_read(elastic, [1.0], Programme())).round(-3)
     array([1.e+10])
     """
-    springs, dashpots = (
-        np.array([*values, absent])
-        for values, absent in ((chain.kelvin_springs, 0.0), (chain.kelvin_dashpots, chain.dashpot))
-    )
-    strain = np.zeros(
-        springs.size
-    )  # of each element, for a stress amplitude of 1 Pa; the dashpot is the last
+    flows = bool(np.isfinite(chain.dashpot))  # then the last element is the dashpot, which has no spring
+    springs = np.array([*chain.kelvin_springs, *[0.0] * flows])
+    dashpots = np.array([*chain.kelvin_dashpots, *[chain.dashpot] * flows])
+    strain = np.zeros(springs.size)  # of each element, for a stress amplitude of 1 Pa
     read = []
     for frequency in frequencies:
         omega = 2.0 * np.pi * frequency
