@@ -41,9 +41,11 @@ def test_every_equation_of_the_paper_is_there():
 
 @pytest.mark.parametrize("page", PAGES)
 def test_files_named_exist(page):
+    """Paths from the root or from the package, with `.py` or without; NAME is any."""
     text = (ROOT / page).read_text(encoding="utf-8")
-    for path in re.findall(r"`((?:src|tests|workflow|tools|\.ci)/[\w./]+)`", text):
-        assert (ROOT / path.replace("NAME", "fig01")).exists(), path
+    for path in re.findall(r"`((?:[\w.]+/)+[\w.]*)`", text):
+        places = [base / (path + end) for base in (ROOT, ROOT / "src/asphalt_nscd") for end in ("", ".py")]
+        assert "NAME" in path or any(place.exists() for place in places), path
 
 
 def test_citation_and_catalogue_can_be_read():
