@@ -383,7 +383,7 @@ _LADDER = [
 
 
 def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
-    # A cause gives its amplitude first (CONTRIBUTING.md).
+    # A cause gives its amplitude first (`causes._cause.Cause`).
     name, amplitude = next(iter(rung["parameters"].items()))
     inside = mean_averages(rung["gain"]["in_sample"])
     return {

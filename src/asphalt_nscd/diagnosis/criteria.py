@@ -26,7 +26,9 @@ SUREST = {True: 0.98, False: 0.96}
 DOUBTED, HALF_FROM = 0.82, 0.5
 ALPHA_PER_STEP = 0.005  # of naming anything at one rung of an empty table, over the whole catalogue
 USUAL_THRESHOLD = 3.7  # standard errors that the largest of a usual catalogue reaches with that chance
-Z_95 = 1.645  # normal quantile of 95 %: an effect at its detection limit is found so often
+# Normal quantile of 95 %: an effect at its detection limit is found so often. Texts, trials and tests repeat it, as 5.3
+# (with the usual threshold), 0.95, 19 of 20, and 21 (`instructions.TOLD_APART`).
+Z_95 = 1.645
 TWENTY_TIMES = (
     6.0  # of -2 ln likelihood, 2 ln 20: what gains less than that is not told from what it gains on
 )

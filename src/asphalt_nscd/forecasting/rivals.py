@@ -1,4 +1,7 @@
-"""What others would forecast from the same recipe: mean fields and regressions. Equations as published."""
+"""What others would forecast from the same recipe: mean fields and regressions. Equations as published.
+
+One that is drawn has a title in `TITLES` of `reporting/figures/forecast_panels.py`, and a dash in `DASHES` of `style`.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,9 @@
 """What a test must know of its specimen: how it is cut and driven, and how force and displacement become E*.
 
 A test of another kind is one file beside `twopoint.py`, `tension.py` and `fourpoint.py` with a class that inherits
-`Shape`, and its usual specimen in `USUAL` of `geometry.py`. Complex amplitudes go with exp(+i omega t); the force leads
-the displacement by its phase.
+`Shape`, and its usual specimen in `USUAL` of `geometry.py`. Its displacement is that of the head, and its form factor
+knows no Poisson's ratio; indirect tension, for example, needs both changed here first. Complex amplitudes go with
+exp(+i omega t); the force leads the displacement by its phase.
 """
 
 from __future__ import annotations
@@ -39,7 +40,10 @@ class Plate:
 
 
 class Shape(ABC):
-    """A specimen between foot (z = 0) and head (z = h), its axis along z; subclasses are dataclasses of m and kg."""
+    """A specimen between foot (z = 0) and head (z = h), its axis along z; subclasses are dataclasses of m and kg.
+
+    The first key of `limits` tells its geometry from all others.
+    """
 
     test: ClassVar[str]
     limits: ClassVar[Mapping[str, Limits]]  # of its keys, in mm and kg, in the order of the fields

@@ -1,4 +1,8 @@
-"""Law files of one temperature: a law that bonds can follow, with its origin, as JSON."""
+"""Law files of one temperature: a law that bonds can follow, with its origin, as JSON.
+
+A new one that is no chain is read by `read_bond_law` and `bond_law_of`, exported by `ONE_TEMPERATURE` of
+`exports/law.py`, and made into bonds by `bond_law` of `bending/bending_test.py`.
+"""
 
 from __future__ import annotations
 

@@ -6,7 +6,8 @@ import re
 from dataclasses import dataclass
 from datetime import date, time
 
-# `dateutil` refuses `7. Dez. 2019` and `7 déc 2019`, and never says that day and month may be exchanged.
+# `dateutil` refuses `7. Dez. 2019` and `7 déc 2019`, reads `07.12.2019` as 12 July, and never says that day and month
+# may be exchanged.
 _MONTHS = {
     name: number
     for number, names in enumerate(

@@ -1,4 +1,7 @@
-"""Snakemake's locks: those that a killed one left behind go, those of a living one stay."""
+"""Snakemake's locks: those that a killed one left behind go, those of a living one stay.
+
+After a kill Snakemake asks for --unlock; with --nolock two runs can write one folder.
+"""
 
 from __future__ import annotations
 

@@ -2,6 +2,7 @@
 
 On a terminal one display: how far, how long still, which steps are running. Elsewhere a line for each step that has
 ended. Warnings and errors in both. Snakemake's own account, with every command, stands in `.snakemake/log`.
+`snakemake-logger-plugin-rich` 0.5.1 names no steps in a file.
 """
 
 from __future__ import annotations

@@ -17,7 +17,11 @@ from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 Place = str | float | None
 """The specimen (name) or the isotherm [degC] a cause is confined to; None for the whole table."""
 
-MATERIAL, SPECIMEN, HEAD, CHANNEL = range(4)  # in the order in which a signal passes them
+# In the order in which a signal passes them. One of CHANNEL has one parameter and no place: it is fitted before the
+# errors of the laboratory are sized (`model.laboratory`), and beside every large discrepancy
+# (`search.with_discrepancy`). What sits at HEAD with one parameter and no place, and each of CHANNEL, is pooled over
+# a machine's campaigns too (`machine.pooled`).
+MATERIAL, SPECIMEN, HEAD, CHANNEL = range(4)
 
 
 @dataclass(frozen=True)
@@ -132,5 +136,9 @@ class Cause(ABC):
         return modulus
 
     def rig(self, values: Vector, form_factor: float, amplitude: float) -> dict[str, float]:
-        """What it changes in the simulation (keys of `rig.read_rig`); `form_factor` in 1/m, `amplitude` in m."""
+        """What it changes in the simulation (keys of `rig.read_rig`); `form_factor` in 1/m, `amplitude` in m.
+
+        Empty where it varies with temperature or frequency, for a sample has one rig; and where it is of the mix or the
+        specimen: `simulation.extension` puts those into the law of the bonds.
+        """
         return {}

@@ -1,1 +1,4 @@
-"""A diagnosis in plain sentences."""
+"""A diagnosis in plain sentences; `brief` puts the answer together.
+
+Some are made where they are found: `screening.levels` and `causality`, `search.confined` and `doubts`, `next_tests`.
+"""

@@ -64,7 +64,8 @@ class BondLaws:
     """A law for each component of each bond: its place `kind` (3 b,) in a `table` of those that differ.
 
     A film, for example, is squeezed by another law than it is sheared by. Coefficients are those of `BondLaw` for each
-    component; a law with fewer Kelvin elements than another has zeros for the rest.
+    component; a law with fewer Kelvin elements than another has zeros for the rest. It takes full steps, for the
+    reduced model rests on one law for all bonds.
     """
 
     table: tuple[BondLaw, ...]
@@ -126,7 +127,11 @@ AnyLaw = BondLaw | BondLaws
 
 @dataclass(frozen=True)
 class LawStep:
-    """Affine law over one step: U+ = b - compliance sigma+; one for all, or a number for each of (3 b,)."""
+    """Affine law over one step: U+ = b - compliance sigma+; one for all, or a number for each of (3 b,).
+
+    Any law must be so, with one compliance for all steps, for matrices are factorised with it once. One that changes
+    with rate or load is beyond every stepper here.
+    """
 
     dt: float
     compliance: float | np.ndarray  # S, 1/(Pa s)

@@ -61,7 +61,7 @@ def new_impulse(contact, i, j, friction, relaxation):
     Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`. The violation is
     what the opening lacks of its target. A gap that is open may close, so its target is below zero. The local Delassus
     operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it. The change of an impulse is multiplied by
-    `relaxation` before the laws cut it; above one it over-relaxes.
+    `relaxation` before the laws cut it; above one it over-relaxes. A cohesion must leave open gaps alone.
     """
     nx, ny, nz, px, py, pz, target, mass = contact
     vx, vy, vz = j[0] - i[0], j[1] - i[1], j[2] - i[2]

@@ -40,7 +40,13 @@ class Slabs(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Arrays that a step works in: contacts (c,), blocks (b,), bodies and their rows (r,), see `private_rows`."""
+    """Arrays that a step works in: contacts (c,), blocks (b,), bodies and their rows (r,), see `private_rows`.
+
+    All eight rows of `contacts` are taken. One more number for each contact needs an array in its order and, for
+    contacts that are swept as copies, a place in `noted` (`lively_contacts`, `blocks.deal_lively`,
+    `blocks.give_back`). What starts the next step is carried as impulses are (`granular.lay_in`,
+    `granular.take_out`, `neighbours.carry_reactions`).
+    """
 
     motion: np.ndarray  # (r, 8) velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], 5/2 of 1/mass
     place: np.ndarray  # (r, 8) [m] of a sphere: position, radius, zeros; of a plane: a point, 0, normal, 1

@@ -1,6 +1,6 @@
 """Parts of plots for a page, as SVG of our own: each test carries a title that names it; colours follow the page.
 
-matplotlib's SVG is ten times as large, and its colours are those of paper.
+matplotlib's SVG is ten times as large, and its colours are those of paper; a laboratory needs no matplotlib (95 MB).
 """
 
 from __future__ import annotations
