@@ -42,15 +42,17 @@ def columns(campaign, *names):
     return [campaign.table.columns[name] for name in names]
 
 
-def said(campaign, part):
-    return [note for note in campaign.notes if part in note]
+def said(campaign, *parts):
+    return [note for note in campaign.notes if all(part in note for part in parts)]
 
 
-def refusal(folder, rows, name="t.csv", **chosen):
+def refused(call, *given, names=(), **more):
+    """In one line, which holds the names."""
     with pytest.raises(InputError) as error:
-        read(folder, rows, name, **chosen)
-    assert "t." in str(error.value) and "\n" not in str(error.value)
-    return str(error.value)
+        call(*given, **more)
+    text = str(error.value)
+    assert "\n" not in text
+    assert all(name in text for name in names), text
 
 
 def as_is(folder):

@@ -3,9 +3,15 @@
 from __future__ import annotations
 
 import pytest
+from table_import.slips import columns, exports, refused, said
 
-from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.csvinput import read_csv
+from asphalt_nscd.measurements.reduction import reduce_table
 from asphalt_nscd.table_import.campaign import read_campaign
+
+TABLE = "Sample;T (°C);f (Hz);E (MPa);phi (°)\nA;20;10;5000;20\nB;20;10;5100;21\n"
+PEAKS = "T_C,f_Hz,F0_N,z0_m,psi_deg\n10,5,60,5e-5,20\n"
+NOTES = "Tests of May\nas planned\nWe found E*, phase, and more, at 4 C\n"
 
 
 def export(specimen="A", temperature=4, factor=1.0, name=None):
@@ -22,267 +28,149 @@ Phase uniformity (Degrees),0.9,0.4
 """
 
 
-def save(folder, **files):
-    for name, text in files.items():
-        (folder / f"{name}.csv").write_text(text, encoding="utf-8")
-    return folder
+def unnamed(temperature, factor):
+    return export("A", temperature, factor).replace(f"Mix-A-{temperature}C", "")
 
 
-def said(campaign, part):
-    return [note for note in campaign.notes if part in note]
+def specimens(campaign):
+    return campaign.table.columns["specimen"]
 
 
-TABLE = "Sample;T (°C);f (Hz);E (MPa);phi (°)\nA;20;10;5000;20\nB;20;10;5100;21\n"
+def files(campaign):
+    return [path.name for path in campaign.files]
 
 
 def test_folder_is_one_table_whose_errors_name_the_file(tmp_path):
-    save(tmp_path, a=export("A", 4), b=export("B", 4, 1.1), c=export("A", 20), d=export("B", 20, 1.1))
-    campaign, form = read_campaign([tmp_path])
-    assert form == "moduli" and [path.name for path in campaign.files] == ["a.csv", "b.csv", "c.csv", "d.csv"]
-    assert campaign.table.columns["specimen"] == ["Mix-A"] * 2 + ["Mix-B"] * 2 + ["Mix-A"] * 2 + ["Mix-B"] * 2
+    grid = {"a": ("A", 4), "b": ("B", 4, 1.1), "c": ("A", 20), "d": ("B", 20, 1.1)}
+    campaign = exports(tmp_path, **{name: export(*what) for name, what in grid.items()})
+    assert files(campaign) == ["a.csv", "b.csv", "c.csv", "d.csv"]
+    assert specimens(campaign) == ["Mix-A"] * 2 + ["Mix-B"] * 2 + ["Mix-A"] * 2 + ["Mix-B"] * 2
     assert str(campaign.table.error(3, "bad")) == f"{tmp_path / 'b.csv'}, line 5: bad"
-    assert said(campaign, "2 specimens: Mix-A, Mix-B") and len(said(campaign, "machine export: ")) == 1
-
-
-def test_several_files_are_as_their_folder(tmp_path):
-    save(tmp_path, a=export("A", 4), b=export("B", 4, 1.1))
-    together, _ = read_campaign([tmp_path])
-    named, _ = read_campaign([tmp_path / "a.csv", tmp_path / "b.csv"])
-    assert named.table.columns == together.table.columns and named.files == together.files
+    named, form = read_campaign(list(campaign.files))
+    assert named.table.columns == campaign.table.columns
+    assert (named.files, form) == (campaign.files, "moduli")
 
 
 def test_exports_and_tables_come_together(tmp_path):
-    save(tmp_path, a=export("A", 4), t=TABLE)
-    campaign, _ = read_campaign([tmp_path])
-    assert campaign.table.columns["specimen"] == ["Mix-A", "Mix-A", "A", "B"]
-    assert campaign.table.columns["phase_uniformity_deg"] == ["0.9", "0.4", "", ""]
-    assert campaign.table.columns["nominal_temperature_C"] == ["4", "4", "", ""]
+    campaign = exports(tmp_path, a=export("A", 4), t=TABLE)
+    assert columns(campaign, "specimen", "phase_uniformity_deg", "nominal_temperature_C") == [
+        ["Mix-A", "Mix-A", "A", "B"],
+        ["0.9", "0.4", "", ""],
+        ["4", "4", "", ""],
+    ]
 
 
 def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
-    save(tmp_path, a=export("A", 4), sieves="sieve (mm),passing (%)\n8,100\n4,70\n", empty="")
-    (tmp_path / "scan.pdf").write_bytes(b"%PDF")
-    (tmp_path / "old").mkdir()
-    (tmp_path / ".hidden.csv").write_text("rubbish")
-    campaign, _ = read_campaign([tmp_path])
-    assert [path.name for path in campaign.files] == ["a.csv"]
-    assert said(campaign, "skipped sieves.csv (no columns for temperature, frequency, |E*| and phase)")
-    assert said(campaign, "skipped scan.pdf (neither CSV, TSV, TXT nor XLSX)")
-    assert said(campaign, "skipped old (a folder;") and said(
-        campaign, "skipped empty.csv (the file is empty)"
-    )
-    assert not said(campaign, "hidden")
-    (sentence,) = campaign.without_tests
-    assert sentence.startswith(
-        "2 of 3 files gave no test: empty.csv (the file is empty); sieves.csv (no columns"
-    )
-
-
-def test_folder_without_tests_is_refused(tmp_path):
-    with pytest.raises(InputError, match="no file with tests; give the machine's exports"):
-        read_campaign([tmp_path])
-    (tmp_path / "scan.pdf").write_bytes(b"%PDF")
-    with pytest.raises(InputError, match=r"no file with tests; it holds scan\.pdf \(neither"):
-        read_campaign([tmp_path])
-
-
-def test_a_table_with_another_ending_is_named_in_the_verdict(tmp_path):
-    save(tmp_path, a=export("A", 4))
     (tmp_path / "b.csv.bak").write_text(export("B", 4))
     (tmp_path / "c.xls").write_bytes(b"\xd0\xcf\x11\xe0")
-    (tmp_path / "notes.txt").write_text("Tested in May.\n")
     (tmp_path / "scan.pdf").write_bytes(b"%PDF")
-    campaign, _ = read_campaign([tmp_path])
-    assert campaign.without_tests == (
-        "2 of 3 files gave no test: b.csv.bak, c.xls (neither CSV, TSV, TXT nor XLSX).",
-    )
-    assert said(campaign, "skipped notes.txt") and said(campaign, "skipped scan.pdf")
+    (tmp_path / "notes.txt").write_text(NOTES)
+    (tmp_path / ".hidden.csv").write_text("rubbish")
+    (tmp_path / "old").mkdir()
+    sieves = "sieve (mm),passing (%)\n8,100\n4,70\n"
+    campaign = exports(tmp_path, a=export("A", 4), sieves=sieves, empty="", notes=NOTES)
+    assert files(campaign) == ["a.csv"]
+    assert len(campaign.table.lines) == 2
+    for name in ("sieves.csv", "scan.pdf", "old", "empty.csv", "notes.txt", "notes.csv"):
+        assert said(campaign, f"skipped {name} (")
+    assert not said(campaign, "hidden")
+    for name in ("empty.csv", "sieves.csv", "b.csv.bak", "c.xls"):
+        assert name in " ".join(campaign.without_tests)
 
 
-def test_one_specimen_in_several_spellings_is_one(tmp_path):
-    save(tmp_path, a=export(temperature=4, name="Mix-A"), b=export(temperature=20, name="mix a"))
-    save(tmp_path, c=export(temperature=35, name="MIX_A"), d=export("B", 4, 1.1))
-    campaign, _ = read_campaign([tmp_path])
-    assert set(campaign.table.columns["specimen"]) == {"Mix-A", "Mix-B"}
-    assert said(campaign, "mix a, MIX_A taken for specimen Mix-A, spelt otherwise")
-
-
-def test_a_folder_of_folders_says_to_give_these(tmp_path):
+def test_a_place_without_tests_is_refused(tmp_path):
+    refused(read_campaign, [tmp_path / "none.csv"], names=["none.csv"])
+    refused(read_campaign, [tmp_path], names=[str(tmp_path)])
+    (tmp_path / "scan.pdf").write_bytes(b"%PDF")
     (tmp_path / "A").mkdir()
-    save(tmp_path / "A", a=export("A", 4))
-    with pytest.raises(
-        InputError, match=r"no file with tests; it holds A \(a folder.*give the folders in it by"
-    ):
-        read_campaign([tmp_path])
+    refused(exports, tmp_path, **{"A/a": export("A", 4), "names": ["scan.pdf", "A (a folder"]})
 
 
 def test_one_reason_of_many_files_is_said_once(tmp_path):
-    for n in range(9):
-        save(tmp_path, **{f"e{n}": export("A", 4, 1.0 + n).replace(" (MPa)", "")})
-    with pytest.raises(InputError) as error:
-        read_campaign([tmp_path])
-    assert str(error.value) == (
-        f"{tmp_path}: no file with tests; it holds e0.csv, e1.csv, e2.csv and 6 more (column 'Dynamic modulus' does "
-        "not say its unit); write it after the name, as in E (MPa)."
-    )
+    without_unit = {f"e{n}": export("A", 4, 1.0 + n).replace(" (MPa)", "") for n in range(9)}
+    refused(exports, tmp_path, **without_unit, names=["e0.csv, e1.csv, e2.csv and 6 more", "Dynamic modulus"])
 
 
-def test_damaged_results_in_a_folder_are_refused_not_passed_over(tmp_path):
-    save(tmp_path, a=export("A", 4), b=export("B", 4).replace("8700", "87x0"))
-    with pytest.raises(InputError, match=r"b\.csv, line 5: Dynamic modulus \(MPa\): '87x0' is not a number"):
-        read_campaign([tmp_path])
-    save(tmp_path, b=TABLE.replace("5000", "many"))
-    with pytest.raises(InputError, match=r"b\.csv, line 2: E \(MPa\): 'many' is not a number"):
-        read_campaign([tmp_path])
+@pytest.mark.parametrize(
+    ("b", "names"),
+    [
+        (export("B", 4).replace("8700", "87x0"), ["b.csv, line 5", "Dynamic modulus (MPa)", "87x0"]),
+        (TABLE.replace("5000", "many"), ["b.csv, line 2", "E (MPa)", "many"]),
+        ("specimen;T (°C);E (GPa) at 10 Hz;phi (°) at 10 Hz\nB;4;9;20;7\n", ["b.csv, line 2", "5 fields"]),
+        ("PK rubbish", ["b.csv", "XLSX"]),
+        (export("A", 4, 1.2), ["a.csv and b.csv", "Mix-A", "4 degC, 25 Hz"]),
+        (PEAKS, ["moduli and peaks"]),
+    ],
+)
+def test_damaged_or_contested_results_in_a_folder_are_refused_not_passed_over(tmp_path, b, names):
+    refused(exports, tmp_path, a=export("A", 4), b=b, names=names)
 
 
-@pytest.mark.parametrize("name", ["notes.txt", "notes.csv"])
-def test_running_text_is_passed_over(tmp_path, name):
-    save(tmp_path, a=export("A", 4))
-    (tmp_path / name).write_text("Tests of May\nas planned\nWe found E*, phase, and more, at 4 C\n")
-    campaign, _ = read_campaign([tmp_path])
-    assert len(campaign.table.lines) == 2 and said(campaign, f"skipped {name} (")
-
-
-def test_a_wide_table_that_is_damaged_is_refused(tmp_path):
-    save(tmp_path, a=export("A", 4), b="specimen;T (°C);E (GPa) at 10 Hz;phi (°) at 10 Hz\nB;4;9;20;7\n")
-    with pytest.raises(InputError, match=r"b\.csv, line 2: 5 fields under 4 column names"):
-        read_campaign([tmp_path])
-    (tmp_path / "b.csv").write_bytes(b"PK rubbish")
-    with pytest.raises(InputError, match=r"b\.csv: cannot be read as XLSX"):
-        read_campaign([tmp_path])
+def test_one_specimen_in_several_spellings_is_one(tmp_path):
+    spelt = {t: export(temperature=t, name=name) for t, name in ((4, "Mix-A"), (20, "mix a"), (35, "MIX_A"))}
+    campaign = exports(tmp_path, a=spelt[4], b=spelt[20], c=spelt[35], d=export("B", 4, 1.1))
+    assert set(specimens(campaign)) == {"Mix-A", "Mix-B"}
 
 
 def test_a_table_that_holds_the_tests_of_the_exports_is_passed_over(tmp_path):
-    rows = [
-        "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg",
-        "K1,4.0,25.0,8700.0,12.50",
-        "K1,4.0,10.0,7600,13.25",
-    ]
-    save(tmp_path, a=export("A", 4), table="\n".join(rows) + "\n")
-    campaign, _ = read_campaign([tmp_path])
-    assert said(campaign, "skipped table.csv (holds the same tests as a.csv)")
-    assert campaign.table.columns["specimen"] == ["Mix-A"] * 2
+    table = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\nK1,4.0,25.0,8700.0,12.50\nK1,4.0,10.0,7600,13.25\n"
+    campaign = exports(tmp_path, a=export("A", 4), table=table)
+    assert said(campaign, "skipped table.csv", "a.csv")
+    assert specimens(campaign) == ["Mix-A"] * 2
     # One test more, and it is no copy.
-    save(tmp_path, table="\n".join([*rows, "K1,4.0,1.0,6000,14"]) + "\n")
-    assert len(read_campaign([tmp_path])[0].table.lines) == 5
+    assert len(exports(tmp_path, table=f"{table}K1,4.0,1.0,6000,14\n").table.lines) == 5
 
 
-def test_the_same_export_twice_counts_once(tmp_path):
-    save(tmp_path, a=export("A", 4), copy=export("A", 4))
-    campaign, _ = read_campaign([tmp_path])
-    assert len(campaign.table.lines) == 2 and said(
-        campaign, "skipped copy.csv (holds the same tests as a.csv)"
-    )
+@pytest.mark.parametrize(
+    ("kept", "copy", "specimen", "names"),
+    [
+        ("a", "copy", "A", ["a.csv"]),
+        ("K10", "K10 - Copy", "A", ["K10.csv"]),  # the original
+        ("a", "b", "B", ["Mix-B and Mix-A"]),
+    ],
+)
+def test_the_same_export_twice_counts_once(tmp_path, kept, copy, specimen, names):
+    campaign = exports(tmp_path, **{kept: export("A", 4), copy: export(specimen, 4)})
+    assert files(campaign) == [f"{kept}.csv"]
+    assert len(campaign.table.lines) == 2
+    assert said(campaign, f"skipped {copy}.csv", *names)
 
 
-@pytest.mark.parametrize("first", [True, False])
-def test_repeated_test_is_taken_instead_of_the_first_and_said(tmp_path, first):
-    names = ("a", "b") if first else ("b", "a")
+@pytest.mark.parametrize("names", [("a", "b"), ("b", "a")])
+def test_repeated_test_is_taken_instead_of_the_first_and_said(tmp_path, names):
     repeated = export("A", 4, 1.2, name="Mix-A-4C-Repeated")
-    save(tmp_path, **dict(zip(names, (export("A", 4), repeated), strict=True)), c=export("A", 20))
-    campaign, _ = read_campaign([tmp_path])
-    assert campaign.table.columns["E_MPa"][:2] == ["10440", "9120"]
-    assert said(campaign, f"{names[1]}.csv is taken instead of {names[0]}.csv: the test was repeated")
-    assert len(campaign.table.lines) == 4
-
-
-def test_two_files_of_one_test_are_refused(tmp_path):
-    save(tmp_path, a=export("A", 4), b=export("A", 4, 1.2))
-    with pytest.raises(
-        InputError,
-        match=r"a\.csv and b\.csv both hold specimen Mix-A at 4 degC, 25 Hz, and no date in both tells",
-    ):
-        read_campaign([tmp_path])
-
-
-def test_moduli_and_peaks_do_not_mix(tmp_path):
-    save(tmp_path, a=TABLE, b="T_C,f_Hz,F0_N,z0_m,psi_deg\n10,5,60,5e-5,20\n")
-    with pytest.raises(InputError, match="the files hold moduli and peaks; give those of one form together"):
-        read_campaign([tmp_path])
-
-
-def test_a_missing_file_is_refused(tmp_path):
-    with pytest.raises(InputError, match="check the path"):
-        read_campaign([tmp_path / "none.csv"])
+    campaign = exports(tmp_path, **{names[0]: export("A", 4), names[1]: repeated}, c=export("A", 20))
+    assert columns(campaign, "E_MPa") == [["10440", "9120", "7100", "6000"]]
+    assert said(campaign, f"{names[1]}.csv is taken instead of {names[0]}.csv")
 
 
 def test_what_reduce_wrote_is_taken_as_it_is(tmp_path):
-    from asphalt_nscd.measurements.reduction import reduce_table
-
-    (tmp_path / "m.csv").write_text(
-        "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\n"
-        + "".join(f"A,{t},{f},{9000.123456789012 - 100 * t + f},20\n" for t in (0, 10) for f in (1, 10))
-    )
+    rows = [f"A,{t},{f},{9000.123456789012 - 100 * t + f},20\n" for t in (0, 10) for f in (1, 10)]
+    header = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\n"
+    (tmp_path / "m.csv").write_text(header + "".join(rows))
     geometry = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
     reduce_table(tmp_path / "m.csv", geometry, tmp_path / "reduced.csv")
     campaign, _ = read_campaign([tmp_path / "reduced.csv"])
-    from asphalt_nscd.files.csvinput import read_csv
-
     assert campaign.table.columns == read_csv(tmp_path / "reduced.csv").columns
     # Every digit of a plain table stays, too.
     plain, _ = read_campaign([tmp_path / "m.csv"])
     assert plain.table.columns["E_MPa"] == read_csv(tmp_path / "m.csv").columns["E_MPa"]
 
 
-def test_one_specimen_is_one(tmp_path):
-    (tmp_path / "t.csv").write_text("specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\nA,20,10,9000,20\n")
-    assert "1 specimen: A" in read_campaign([tmp_path / "t.csv"])[0].notes
-
-
-def test_files_with_numbers_for_names_are_no_specimens(tmp_path):
+def test_files_with_numbers_for_names(tmp_path):
+    """At one temperature they are specimens; at several nobody can say."""
+    assert set(specimens(exports(tmp_path, **{"1": unnamed(4, 1.0), "2": unnamed(4, 2.0)}))) == {"1", "2"}
     grid = [(s, t) for s in range(2) for t in (4, 20)]
-    texts = [export(temperature=t, factor=1.0 + 0.1 * s).replace(f"Mix-A-{t}C", "") for s, t in grid]
-    save(tmp_path, **{str(n): text for n, text in enumerate(texts, start=1)})
-    with pytest.raises(InputError) as error:
-        read_campaign([tmp_path])
-    assert str(error.value) == (
-        f"{tmp_path}: 4 files, 4 specimens, each at one temperature only: write the specimen into Identification, or "
-        "into the names of the files as in K10_21C."
-    )
+    numbered = {str(n): unnamed(t, 1.0 + 0.1 * s) for n, (s, t) in enumerate(grid, start=1)}
+    refused(exports, tmp_path, **numbered, names=[str(tmp_path), "4 files, 4 specimens"])
     for n, (s, t) in enumerate(grid, start=1):
         (tmp_path / f"{n}.csv").rename(tmp_path / f"K{s}_{t}C.csv")
-    assert set(read_campaign([tmp_path])[0].table.columns["specimen"]) == {"K0", "K1"}
+    assert set(specimens(read_campaign([tmp_path])[0])) == {"K0", "K1"}
 
 
-def test_files_with_numbers_for_names_at_one_temperature_are_specimens(tmp_path):
-    save(tmp_path, **{str(n): export("A", 4, n, name="").replace("Mix-A-4C", "") for n in (1, 2)})
-    assert set(read_campaign([tmp_path])[0].table.columns["specimen"]) == {"1", "2"}
-
-
-@pytest.mark.parametrize("unit, said", [("psi", "only 62.1 MPa, too soft"), ("GPa", "9e+06 MPa, too stiff")])
-def test_megapascals_under_another_unit_are_asked_for(tmp_path, unit, said):
+@pytest.mark.parametrize(("unit", "read_as"), [("psi", "62.1 MPa"), ("GPa", "9e+06 MPa")])
+def test_megapascals_under_another_unit_are_asked_for(tmp_path, unit, read_as):
     rows = [f"A,{t},{f},{9000 - 100 * t + 100 * f:g},{10 + t / 4}" for t in (5, 15) for f in (1, 5)]
-    save(tmp_path, t="\n".join([f"specimen,T (C),f (Hz),|E*| ({unit}),phi (deg)", *rows]))
-    with pytest.raises(InputError) as error:
-        read_campaign([tmp_path / "t.csv"])
-    assert str(error.value) == (
-        f"{tmp_path / 't.csv'}: read as {unit} |E*| reaches {said} for asphalt; read as MPa it fits: is the unit MPa? "
-        "Write it into the name of the column."
-    )
-    save(tmp_path, t="\n".join(["specimen,T (C),f (Hz),|E*| (MPa),phi (deg)", *rows]))
-    read_campaign([tmp_path / "t.csv"])
-
-
-def test_of_an_original_and_its_copy_the_original_is_kept(tmp_path):
-    save(tmp_path, **{"K10": export("A", 4), "K10 - Copy": export("A", 4)})
-    campaign, _ = read_campaign([tmp_path])
-    assert [path.name for path in campaign.files] == ["K10.csv"]
-    assert said(campaign, "skipped K10 - Copy.csv (holds the same tests as K10.csv)")
-    assert not said(campaign, "identical results")
-
-
-def test_identical_results_under_two_specimens_are_said(tmp_path):
-    save(tmp_path, a=export("A", 4), b=export("B", 4))
-    assert said(
-        read_campaign([tmp_path])[0],
-        "skipped b.csv (holds the same tests as a.csv): identical results under two specimens, Mix-B and Mix-A: one "
-        "export was saved twice; export the missing one",
-    )
-
-
-def test_an_export_without_its_quality_lines_says_so(tmp_path):
-    save(tmp_path, a=export("A", 4))
-    assert not said(read_campaign([tmp_path])[0], "no quality columns")
-    save(tmp_path, a=export("A", 4).replace("Phase uniformity (Degrees),0.9,0.4\n", ""))
-    assert said(read_campaign([tmp_path])[0], "machine export: ")[0].endswith("; no quality columns")
+    table = "\n".join(["specimen,T (C),f (Hz),|E*| (MPa),phi (deg)", *rows])
+    refused(exports, tmp_path, t=table.replace("MPa", unit), names=[str(tmp_path), unit, read_as])
+    exports(tmp_path, t=table)

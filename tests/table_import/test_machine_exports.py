@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import openpyxl
 import pytest
+from table_import.slips import refused, workbook
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.names import specimen_of
 
@@ -49,34 +48,23 @@ def moduli(campaign):
     return campaign.table.columns["E_MPa"], campaign.table.columns["phase_deg"]
 
 
-def refusal(folder, text, **options):
-    with pytest.raises(InputError) as error:
-        read(folder, text, **options)
-    assert "\n" not in str(error.value)
-    return str(error.value)
-
-
 def test_summary_export_is_read_as_it_is(tmp_path):
     campaign = read(tmp_path, EXPORT)
-    columns = campaign.table.columns
     assert campaign.test_type == "tension-compression"
-    assert columns["specimen"] == ["Mix-7"] * 3
-    assert columns["frequency_Hz"] == ["25", "10", "0.5"]
-    assert moduli(campaign) == (["9100", "8000", "5000"], ["12.5", "13.25", "19"])
-    assert columns["temperature_C"] == ["4.1", "4.0", "3.9"]
-    assert columns["nominal_temperature_C"] == ["4"] * 3
-    assert columns["phase_uniformity_deg"] == ["7.9", "0.4", "0.5"]
-    assert columns["load_standard_error_percent"] == ["3.2", "0.9", ""]
-    assert columns["microstrain"] == ["104", "101", "97"]
-    notes = " ".join(campaign.notes)
-    assert "text read as Windows (cp1252), for it is not UTF-8" in notes
-    assert "is taken as an axial test; for bending say --measured-in bending" in notes
-    assert "ignored: 'Average confining pressure (kPa)'" in notes
-
-
-def test_test_type_that_the_user_states_is_taken(tmp_path):
-    campaign = read(tmp_path, EXPORT, test_type="bending")
-    assert campaign.test_type == "bending" and "tension" not in " ".join(campaign.notes)
+    expected = {
+        "specimen": ["Mix-7"] * 3,
+        "frequency_Hz": ["25", "10", "0.5"],
+        "E_MPa": ["9100", "8000", "5000"],
+        "phase_deg": ["12.5", "13.25", "19"],
+        "temperature_C": ["4.1", "4.0", "3.9"],
+        "nominal_temperature_C": ["4"] * 3,
+        "phase_uniformity_deg": ["7.9", "0.4", "0.5"],
+        "load_standard_error_percent": ["3.2", "0.9", ""],
+        "microstrain": ["104", "101", "97"],
+    }
+    assert campaign.table.columns.items() >= expected.items()
+    assert "ignored: 'Average confining pressure (kPa)'" in " ".join(campaign.notes)
+    assert read(tmp_path, EXPORT, test_type="bending").test_type == "bending"
 
 
 @pytest.mark.parametrize(
@@ -95,23 +83,20 @@ def test_the_kind_of_test_is_told_by_its_scheme_and_never_assumed(tmp_path, titl
     (tmp_path / "t.csv").write_text((f'"{title}"\n' if title else "") + rows)
     told, _ = read_campaign([tmp_path / "t.csv"])
     assert told.test_type == kind
-    asked = [note for note in told.notes if "is not said; say --measured-in" in note]
-    assert bool(asked) == (kind == "unknown")
+    assert any("is not said; say --measured-in" in note for note in told.notes) == (kind == "unknown")
     stated, _ = read_campaign([tmp_path / "t.csv"], test_type="bending")
-    assert stated.test_type == "bending" and not any("--measured-in" in note for note in stated.notes)
+    assert stated.test_type == "bending"
+    assert "--measured-in" not in " ".join(stated.notes)
 
 
 @pytest.mark.parametrize("codec", ["utf-8", "utf-8-sig", "utf-16"])
 def test_encodings(tmp_path, codec):
-    campaign = read(tmp_path, EXPORT, codec=codec)
-    assert campaign.table.columns["temperature_C"] == ["4.1", "4.0", "3.9"]
-    assert ("read as UTF-16" in campaign.notes) == (codec == "utf-16")
+    assert read(tmp_path, EXPORT, codec=codec).table.columns["temperature_C"] == ["4.1", "4.0", "3.9"]
 
 
 def test_bytes_of_no_known_encoding_are_refused(tmp_path):
     (tmp_path / "e.csv").write_bytes(EXPORT.encode("latin-1") + b"\x81\n")
-    with pytest.raises(InputError, match="neither UTF-8 nor Windows text .* save it as UTF-8"):
-        read_campaign([tmp_path / "e.csv"])
+    refused(read_campaign, [tmp_path / "e.csv"], names=["e.csv", "UTF-8"])
 
 
 @pytest.mark.parametrize(
@@ -168,8 +153,8 @@ def test_frequencies_with_a_point_above_decimal_commas(tmp_path):
     assert moduli(campaign) == (["9100", "8000", "5000"], ["12.5", "13.25", "19"])
     head, frequencies, modulus, *_ = RESULTS.split("\n")
     whole = [head, frequencies, modulus.replace("9100", '"9,100"'), " Phase angle (Degrees),12,13,19"]
-    said = refusal(tmp_path, HEADER + "\n".join(whole))
-    assert "'9,100' (line 15) and '0.5' (line 14) have different decimal marks" in said
+    names = ["'9,100' (line 15)", "'0.5' (line 14)"]
+    refused(read, tmp_path, HEADER + "\n".join(whole), names=names)
 
 
 TURNED = (
@@ -188,34 +173,18 @@ Approved by,me
 def test_frequencies_as_rows(tmp_path):
     plain, turned = read(tmp_path, EXPORT), read(tmp_path, TURNED)
     assert moduli(turned) == moduli(plain) and turned.test_type == "tension-compression"
-    for name in (
-        "specimen",
-        "frequency_Hz",
-        "temperature_C",
-        "nominal_temperature_C",
-        "phase_uniformity_deg",
-    ):
+    same = ("specimen", "frequency_Hz", "temperature_C", "nominal_temperature_C", "phase_uniformity_deg")
+    for name in same:
         assert turned.table.columns[name] == plain.table.columns[name]
 
 
-def test_a_damaged_line_of_a_list_is_refused(tmp_path):
-    assert "Frequency (Hz): '1O' is not a number" in refusal(tmp_path, TURNED.replace("10,8000", "1O,8000"))
-
-
 def test_workbook(tmp_path):
-    book = openpyxl.Workbook()
-    for line in EXPORT.splitlines():
-        book.active.append([_value(cell) for cell in line.split(",")])
-    book.save(tmp_path / "Mix-7-4C_Sum.xlsx")
-    campaign, _ = read_campaign([tmp_path / "Mix-7-4C_Sum.xlsx"])
+    def value(cell):
+        return float(cell) if cell.replace(".", "").lstrip("-").isdigit() else cell
+
+    rows = [[value(cell) for cell in line.split(",")] for line in EXPORT.splitlines()]
+    campaign, _ = read_campaign([workbook(tmp_path / "Mix-7-4C_Sum.xlsx", summary=rows)])
     assert moduli(campaign) == (["9100", "8000", "5000"], ["12.5", "13.25", "19"])
-
-
-def _value(cell):
-    try:
-        return float(cell)
-    except ValueError:
-        return cell
 
 
 def test_several_temperatures_in_one_file(tmp_path):
@@ -233,75 +202,59 @@ def test_frequency_without_a_result_is_left_out_and_said(tmp_path):
     assert "frequencies without a modulus left out: 1" in campaign.notes
 
 
-@pytest.mark.parametrize(
-    ("last", "sentence"),
-    [
-        (
-            ",25 Hz,10 Hz,0.5 Hz",
-            ": the file ends early, without a row of moduli and of phases; export it anew.",
-        ),
-        (
-            " Dynamic modulus (MPa),9100,8000,5000",
-            ": the file ends early, without a row of phases; export it anew.",
-        ),
-        (
-            " Phase angle (Degrees),12.5",
-            ", line 16: the file ends early: Phase angle (Degrees) has no value for the frequencies "
-            "10, 0.5; export it anew.",
-        ),
-        (
-            " Average temperature  (°C),4.1,4.0",
-            "Average temperature (°C) has no value for the frequencies 0.5; export it anew.",
-        ),
-    ],
-)
-def test_an_export_that_ends_early_says_so(tmp_path, last, sentence):
-    assert last in EXPORT
-    assert refusal(tmp_path, EXPORT[: EXPORT.index(last) + len(last)]).endswith(sentence)
-
-
 def test_an_export_may_end_with_its_phases(tmp_path):
-    assert moduli(read(tmp_path, EXPORT[: EXPORT.index(" Average temperature")]))[1] == [
-        "12.5",
-        "13.25",
-        "19",
-    ]
-
-
-def test_synthetic_exports_say_so(tmp_path):
-    assert (
-        read(tmp_path, EXPORT.replace("Comments\n", "Comments,Synthetic: drawn\n")).table.columns["origin"]
-        == ["synthetic"] * 3
-    )
-    assert (
-        "origin"
-        not in read(tmp_path, EXPORT.replace("Comments\n", "Comments,cold, synthetic binder\n")).table.columns
-    )
+    whole = EXPORT[: EXPORT.index(" Average temperature")]
+    assert moduli(read(tmp_path, whole)) == (["9100", "8000", "5000"], ["12.5", "13.25", "19"])
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "sentence"),
+    ("comment", "origin"), [("Synthetic: drawn", ["synthetic"] * 3), ("cold, synthetic binder", None)]
+)
+def test_synthetic_exports_say_so(tmp_path, comment, origin):
+    text = EXPORT.replace("Comments\n", f"Comments,{comment}\n")
+    assert read(tmp_path, text).table.columns.get("origin") == origin
+
+
+def until(last):
+    assert last in EXPORT
+    return EXPORT[: EXPORT.index(last) + len(last)]
+
+
+def changed(old, new):
+    assert old in EXPORT
+    return EXPORT.replace(old, new)
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
     [
-        (",25 Hz,10 Hz,0.5 Hz\n", "", "a machine export without its line of frequencies"),
-        (",10 Hz,0.5 Hz", ",10 Hz,0,5 Hz", "'0' stands among the frequencies and is none; if decimals"),
-        ("modulus (MPa)", "modulus", "'Dynamic modulus' does not say its unit; write it after the name"),
-        ("modulus (MPa)", "modulus (m)", "'m' is not a unit of E_MPa; give one of Pa, kPa, MPa"),
-        (" Phase angle (Degrees),12.5,13.25,19\n", "", "no column for phase"),
-        (" Load drift", " E* (MPa),9,8,7\n Load drift", "'Dynamic modulus (MPa)' and 'E* (MPa)' may each be E_MPa"),
-        ("9100,8000,5000", "9100,8000,5000,4000", "4 values below 3 frequencies"),
-        ("9100,8000,5000", "9100,error,5000", "Dynamic modulus (MPa): 'error' is not a number"),
-        ("9100,8000,5000", "9100,,5000", "Dynamic modulus (MPa): the cell is empty"),
-        ("9100,8000,5000\n Phase angle (Degrees),12.5,13.25,19", "na,na,na\n Phase angle (Degrees),na,na,na",
-         "no frequency has a modulus"),
-        ("Target test temperature,4", "Target test temperature,4 bar", ""),
+        (until(",25 Hz,10 Hz,0.5 Hz"), ["ends early", "moduli", "phases"]),
+        (until(" Dynamic modulus (MPa),9100,8000,5000"), ["ends early", "phases"]),
+        (until(" Phase angle (Degrees),12.5"), ["line 16", "Phase angle (Degrees)", "10, 0.5"]),
+        (until(" Average temperature  (°C),4.1,4.0"), ["Average temperature (°C)", "0.5"]),
+        (TURNED.replace("10,8000", "1O,8000"), ["Frequency (Hz)", "'1O'"]),
+        (changed(",25 Hz,10 Hz,0.5 Hz\n", ""), ["frequencies"]),
+        (changed(",10 Hz,0.5 Hz", ",10 Hz,0,5 Hz"), ["'0'", "frequencies"]),
+        (changed(",25 Hz,10 Hz,0.5 Hz", ",157.1 rad/s,10 Hz,0.5 Hz"), ["line 14", "Hz and rad/s"]),
+        (changed("modulus (MPa)", "modulus"), ["'Dynamic modulus'", "unit"]),
+        (changed("modulus (MPa)", "modulus (m)"), ["'m'", "E_MPa"]),
+        (changed(" Phase angle (Degrees),12.5,13.25,19\n", ""), ["no column for phase"]),
+        (changed(" Load drift", " E* (MPa),9,8,7\n Load drift"), ["'Dynamic modulus (MPa)' and 'E* (MPa)'"]),
+        (changed("9100,8000,5000", "9100,8000,5000,4000"), ["4 values", "3 frequencies"]),
+        (changed("9100,8000,5000", "9100,error,5000"), ["Dynamic modulus (MPa)", "'error'"]),
+        (changed("9100,8000,5000", "9100,,5000"), ["Dynamic modulus (MPa)", "empty"]),
+        (changed("9100,8000,5000", '"9,100.0","8,000","5,000.5"'), ["decimal marks"]),
+        (changed("9100,8000,5000\n Phase angle (Degrees),12.5,13.25,19", "na,na,na\n Phase angle (Degrees),na,na,na"),
+         ["no frequency has a modulus"]),
     ],
 )  # fmt: skip
-def test_what_is_ambiguous_is_refused_in_one_sentence(tmp_path, old, new, sentence):
-    assert old in EXPORT
-    if sentence:
-        assert sentence in refusal(tmp_path, EXPORT.replace(old, new))
-    else:  # an unreadable target is no target: the measured temperature stands
-        assert "nominal_temperature_C" not in read(tmp_path, EXPORT.replace(old, new)).table.columns
+def test_what_is_ambiguous_or_cut_short_is_refused(tmp_path, text, names):
+    refused(read, tmp_path, text, names=["Mix-7-4C (X1)_Sum.csv", *names])
+
+
+def test_a_target_that_cannot_be_read_is_none(tmp_path):
+    text = changed("Target test temperature,4", "Target test temperature,4 bar")
+    assert "nominal_temperature_C" not in read(tmp_path, text).table.columns
 
 
 @pytest.mark.parametrize(
@@ -341,13 +294,6 @@ def test_frequencies_in_radians_per_second(tmp_path, line):
     assert [float(f) for f in columns["frequency_Hz"]] == pytest.approx([25.0, 10.0, 0.5], rel=1e-3)
 
 
-def test_frequencies_in_two_units_are_refused(tmp_path):
-    with pytest.raises(InputError, match=r"line 14: frequencies in both Hz and rad/s; give all in Hz\."):
-        read(tmp_path, EXPORT.replace(",25 Hz,10 Hz,0.5 Hz", ",157.1 rad/s,10 Hz,0.5 Hz"))
-
-
 def test_digits_in_groups_with_a_decimal_point(tmp_path):
     text = EXPORT.replace("9100,8000,5000", '"9,100.0",8000.0,"5,000.5"')
     assert read(tmp_path, text).table.columns["E_MPa"] == ["9100.0", "8000.0", "5000.5"]
-    with pytest.raises(InputError, match="have different decimal marks"):
-        read(tmp_path, text.replace("8000.0", '"8,000"'))

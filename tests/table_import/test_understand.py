@@ -6,8 +6,8 @@ import math
 from pathlib import Path
 
 import pytest
+from table_import.slips import refused
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.quantities import SIEVES, recognise
@@ -20,13 +20,6 @@ def table(header, *rows):
 
 def columns(header, *rows, **chosen):
     return understand(table(header, *rows), chosen).table.columns
-
-
-def refusal(header, *rows, **chosen):
-    with pytest.raises(InputError) as error:
-        understand(table(header, *rows), chosen)
-    assert str(error.value).startswith("t.csv") and "\n" not in str(error.value)
-    return str(error.value)
 
 
 @pytest.mark.parametrize(
@@ -58,12 +51,12 @@ def test_names_and_units(name, quantity, one):
         assert column.factor + column.offset == pytest.approx(one, rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    "name", ["E (mPa)", "E (deg)", "phi (Hz)", "phi (grad)", "f (1/min)", "specimen (mm)"]
-)
+FOREIGN = ["E (mPa)", "E (deg)", "phi (Hz)", "phi (grad)", "f (1/min)", "specimen (mm)"]
+
+
+@pytest.mark.parametrize("name", FOREIGN)
 def test_foreign_units_are_refused(name):
-    with pytest.raises(InputError, match="is not a unit of"):
-        recognise(name)
+    refused(recognise, name, names=[f"'{name.partition('(')[2][:-1]}'"])
 
 
 @pytest.mark.parametrize(
@@ -92,19 +85,16 @@ def test_decimal_commas_giga_pascals_and_radians():
 
 
 def test_peaks_with_micrometres_and_extra_columns():
-    read = understand(
-        table("replicate;T (°C);f (Hz);F0 (N);z0 (µm);psi (°);operator;E' (MPa)", "1;15;10;100;63;20;me;9000")
-    )
+    header = "replicate;T (°C);f (Hz);F0 (N);z0 (µm);psi (°);operator;E' (MPa)"
+    read = understand(table(header, "1;15;10;100;63;20;me;9000"))
     assert read.form == "peaks"
     assert read.table.columns["z0_m"] == ["6.3e-05"]
     assert "ignored: 'operator', \"E' (MPa)\"" in read.notes
-    assert "1 replicates, taken as specimens" in read.notes
 
 
 def test_moduli_are_taken_where_peaks_stand_beside_them():
     read = understand(table("T_C;f_Hz;E_MPa;phi_deg;F0_N;z0_m;psi_deg", "15;10;9000;20;100;6e-5;19"))
     assert read.form == "moduli" and "F0_N" not in read.table.columns
-    assert "ignored: 'F0_N', 'psi_deg'" in read.notes
     assert read.table.columns["amplitude_m"] == ["6e-5"]
 
 
@@ -123,7 +113,7 @@ def test_frequencies_of_headings_have_a_mark_of_their_own():
     header = "T_C;E (MPa) 10 Hz;phi (deg) 10 Hz;E (MPa) 0.5 Hz;phi (deg) 0.5 Hz"
     read = columns(header, "4,5;9100,5;12,5;5000;19")
     assert read["frequency_Hz"] == ["10", "0.5"] and read["E_MPa"] == ["9100.5", "5000"]
-    assert "different decimal marks" in refusal(header, "4;9,100;12;5,000;19")
+    refused(columns, header, "4;9,100;12;5,000;19", names=["t.csv", "9,100", "0.5"])
 
 
 def test_wide_table_becomes_long():
@@ -140,13 +130,8 @@ def test_wide_table_becomes_long():
 @pytest.mark.parametrize("ways", ["E* ph", "E' E''", "E* tan", "E' tan", "E' ph", "E'' ph", "E'' tan"])
 def test_each_two_that_give_the_whole_modulus(ways):
     """The triangle of 3, 4 and 5."""
-    cells = {
-        "E*": "5000",
-        "E'": "4000",
-        "E''": "3000",
-        "ph": f"{math.degrees(math.atan(0.75))}",
-        "tan": "0.75",
-    }
+    phase = f"{math.degrees(math.atan(0.75))}"
+    cells = {"E*": "5000", "E'": "4000", "E''": "3000", "ph": phase, "tan": "0.75"}
     names = {"ph": "phase (deg)", "tan": "tan delta"}
     header = ";".join(names.get(way, f"{way} (MPa)") for way in ways.split())
     read = columns("T_C;f_Hz;" + header, "15;10;" + ";".join(cells[way] for way in ways.split()))
@@ -158,29 +143,28 @@ LONG = "T_C;f_Hz;E_MPa;phi_deg"
 
 
 @pytest.mark.parametrize(
-    ("header", "row", "sentence"),
+    ("header", "rows", "names"),
     [
-        ("T set (°C);T core (°C);f_Hz;E_MPa;phi_deg", "15;15.1;10;9;2",
-         "columns 'T set (°C)' and 'T core (°C)' may each be temperature_C"),
-        ("T_C;f_Hz;E_MPa;E_MPa;phi_deg", "15;10;9000;9001;20", "column 'E_MPa' appears twice; remove one"),
-        ("T_C;f_Hz;E;phi_deg", "15;10;9000;20",
-         "column 'E' does not say its unit; write it after the name, as in E (MPa)."),
-        ("T_C;f_Hz;F0_N;z0_m;phi_rad", "15;10;9;9;2",
-         'if it is that of force over displacement, say so with --column psi_rad="phi_rad"'),
-        ("T_C;f_Hz;E_MPa;lag", "15;10;9000;20", "no column for phase (found: T_C, f_Hz, E_MPa, lag)"),
-        ("f_Hz;E_MPa at 15 °C;phi_deg at 20 °C", "10;9000;20", "but not the same for all quantities"),
-        ("T_C;f_Hz;E_MPa at 15 °C;phi_deg at 15 °C", "10;9;9000;20", "but not the same for all quantities"),
-        (LONG, "15;10;9000,5;20.1", "'9000,5' (line 2) and '20.1' (line 2) have different decimal marks"),
-        (LONG, "15;10;1.234,5;20", "'1.234,5' seems to group its digits in thousands"),
-        (LONG, "15;10;;20", "line 2: E_MPa: the cell is empty"),
-        (LONG, "15;10;9e3x;20", "'9e3x' is not a number"),
-        (LONG, "15;10;9_000;20", "'9_000' is not a number"),
-        ("specimen;" + LONG, "=cmd();15;10;9000;20", "specimen '=cmd()' must begin with a letter or digit"),
-        ("origin;" + LONG, "guess;15;10;9000;20", "origin 'guess' is not one of measured"),
+        ("T set (°C);T core (°C);f_Hz;E_MPa;phi_deg", ["15;15.1;10;9;2"],
+         ["'T set (°C)' and 'T core (°C)'", "temperature_C"]),
+        ("T_C;f_Hz;E_MPa;E_MPa;phi_deg", ["15;10;9000;9001;20"], ["'E_MPa'", "twice"]),
+        ("T_C;f_Hz;E;phi_deg", ["15;10;9000;20"], ["'E'", "unit"]),
+        ("T_C;f_Hz;F0_N;z0_m;phi_rad", ["15;10;9;9;2"], ['--column psi_rad="phi_rad"']),
+        ("T_C;f_Hz;E_MPa;lag", ["15;10;9000;20"], ["phase", "T_C, f_Hz, E_MPa, lag"]),
+        ("f_Hz;E_MPa at 15 °C;phi_deg at 20 °C", ["10;9000;20"], ["not the same for all quantities"]),
+        ("T_C;f_Hz;E_MPa at 15 °C;phi_deg at 15 °C", ["10;9;9000;20"], ["not the same for all quantities"]),
+        (LONG, ["15;10;9000,5;20.1"], ["'9000,5' (line 2)", "'20.1' (line 2)"]),
+        (LONG, ["15;10;1.234,5;20"], ["'1.234,5'"]),
+        (LONG, ["15;10;;20"], ["line 2: E_MPa", "empty"]),
+        (LONG, ["15;10;9e3x;20"], ["'9e3x'"]),
+        (LONG, ["15;10;9_000;20"], ["'9_000'"]),
+        (LONG, ["15;10;9000;20", "15;10;9100;20"], ["line 3", "line 2"]),  # a test that repeats, without specimens
+        ("specimen;" + LONG, ["=cmd();15;10;9000;20"], ["specimen '=cmd()'"]),
+        ("origin;" + LONG, ["guess;15;10;9000;20"], ["origin 'guess'", "measured"]),
     ],
 )  # fmt: skip
-def test_ambiguous_tables_are_refused(header, row, sentence):
-    assert sentence in refusal(header, row)
+def test_ambiguous_tables_are_refused(header, rows, names):
+    refused(columns, header, *rows, names=["t.csv", *names])
 
 
 @pytest.mark.parametrize("name", ["Mix 21 °C", "N°5", "Köln_3", "A & B", "d'Arc"])
@@ -188,28 +172,18 @@ def test_a_specimen_may_be_called_as_people_call_it(name):
     assert columns("specimen;" + LONG, f"{name};15;10;9000;20")["specimen"] == [name]
 
 
-def test_tests_that_repeat_need_specimens():
-    assert "line 3: repeats the test of line 2, and no column tells specimens apart" in refusal(
-        LONG, "15;10;9000;20", "15;10;9100;20"
-    )
-
-
 def test_columns_can_be_named():
     header, row = "T set (°C);T core (°C);f_Hz;Steifigkeit;phi", "15;15.1;10;9;0.3"
     chosen = {"temperature_C": "T set (°C)", "E_GPa": "Steifigkeit", "phase_rad": "phi"}
     read = columns(header, row, **chosen)
     assert (read["temperature_C"], read["E_MPa"], read["phase_deg"]) == (["15"], ["9000"], ["17.18873385"])
-    assert "no column 'Temp'" in refusal(header, row, temperature_C="Temp")
-    with pytest.raises(InputError, match="--column stiffness: not known"):
-        columns(header, row, stiffness="Steifigkeit")
+    refused(columns, header, row, temperature_C="Temp", names=["t.csv", "'Temp'"])
+    refused(columns, header, row, stiffness="Steifigkeit", names=["--column stiffness"])
 
 
 def test_records_without_a_column_of_specimens_are_asked_for_it(tmp_path):
     path = tmp_path / "r.csv"
     path.write_text("record,temperature_C,frequency_Hz\na.csv,20,10\n")
-    with pytest.raises(
-        InputError, match=r"r\.csv: column 'specimen' is missing \(found: record, temp.*add it"
-    ):
-        read_campaign([path])
+    refused(read_campaign, [path], names=["r.csv: column 'specimen'", "record, temp"])
     path.write_text("record,replicate,temperature_C,frequency_Hz\na.csv,B,20,10\n")
     assert read_campaign([path])[0].table.columns["specimen"] == ["B"]

@@ -3,39 +3,60 @@
 from __future__ import annotations
 
 import pytest
-from table_import.slips import HEADER, ROWS, as_is, read, refusal, said
+from table_import.slips import HEADER, ROWS, as_is, read, refused, said
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.quantities import recognise
 
 
+def headed(at, name, rows=ROWS):
+    return [[*HEADER[:at], name, *HEADER[at + 1 :]], *rows]
+
+
+BEHIND = [[s, f"{t} °C", f"{f} Hz", f"{e} MPa", f"{p}°"] for s, t, f, e, p in ROWS]
+PLAIN = ["specimen", "Temperature", "Frequency", "Modulus", "Phase"]
+BELOW = headed(3, "Wert", [["", "", "", "ksi", ""], *ROWS])
+UNITS = ["", "°C", "Hz", "MPa", "deg"]
+
+
 @pytest.mark.parametrize(
-    ("name", "chosen", "sentence"),
+    ("rows", "chosen", "names"),
     [
-        ("E* [ksi]", {"E_MPa": "E* [ksi]"}, "column 'E* [ksi]' says ksi; write --column E_ksi=\"E* [ksi]\""),
-        ("Wert / GPa", {"E_MPa": "Wert / GPa"}, "says GPa"),
-        ("Wert (°C)", {"E_MPa": "Wert (°C)"}, "is in C, which is no unit of E_MPa"),
+        (headed(3, "E* [ksi]"), {"E_MPa": "E* [ksi]"}, ["'E* [ksi]'", "--column E_ksi"]),
+        (headed(3, "Wert / GPa"), {"E_MPa": "Wert / GPa"}, ["'Wert / GPa'", "GPa"]),
+        (headed(3, "Wert (°C)"), {"E_MPa": "Wert (°C)"}, ["'Wert (°C)'", "E_MPa"]),
+        (BELOW, {"E_MPa": "Wert"}, ["'Wert (ksi)'", "--column E_ksi"]),
+        (headed(4, "Phase (rad)", [[*ROWS[0][:4], "4.2"], *ROWS[1:]]), {}, ["4.2 rad", "241 deg"]),
+        (headed(2, "omega"), {}, ["'omega'", "unit"]),
+        (headed(2, "omega (Hz)"), {}, ["'omega (Hz)'", "rad/s"]),
+        (headed(3, "E"), {}, ["'E'", "unit"]),
+        (
+            [PLAIN, *BEHIND[:2], [*BEHIND[2][:3], "9 GPa", BEHIND[2][4]], *BEHIND[3:]],
+            {},
+            ["line 2: Modulus", "'9800 MPa'"],
+        ),
+        ([HEADER, [*UNITS[:3], "GPa", "deg"], *ROWS], {}, ["line 2", "'GPa'", "'E (MPa)'"]),
     ],
 )
-def test_a_unit_that_the_name_of_the_column_contradicts(tmp_path, name, chosen, sentence):
-    assert sentence in refusal(tmp_path, [[*HEADER[:3], name, HEADER[4]], *ROWS], **chosen)
+def test_a_unit_that_is_contradicted_or_left_out_is_refused(tmp_path, rows, chosen, names):
+    refused(read, tmp_path, rows, **chosen, names=["t.csv", *names])
 
 
-def test_a_unit_that_the_name_of_the_column_confirms(tmp_path):
-    table = [[*HEADER[:3], "Wert (N/mm²)", HEADER[4]], *ROWS]
-    assert read(tmp_path, table, E_MPa="Wert (N/mm²)").table.columns == as_is(tmp_path)
-    below = [[*HEADER[:3], "Wert", HEADER[4]], ["", "", "", "ksi", ""], *ROWS]
-    with pytest.raises(InputError, match="says ksi"):
-        read(tmp_path, below, E_MPa="Wert")
-    assert read(tmp_path, below, E_ksi="Wert").table.columns["E_MPa"][0] == "67568.62147"
+@pytest.mark.parametrize(
+    ("rows", "chosen"),
+    [
+        (headed(3, "Wert (N/mm²)"), {"E_MPa": "Wert (N/mm²)"}),
+        ([PLAIN, *BEHIND], {}),
+        ([HEADER, UNITS, *ROWS], {}),
+        *(([["specimen", "T", "f", "E*", "phi"], [mark, "[°C]", "[Hz]", "[MPa]", "[°]"], *ROWS], {})
+          for mark in ("", "-", "[-]")),
+    ],
+)  # fmt: skip
+def test_a_unit_that_is_confirmed_or_stands_elsewhere(tmp_path, rows, chosen):
+    assert read(tmp_path, rows, **chosen).table.columns == as_is(tmp_path)
 
 
-def test_degrees_under_a_heading_of_radians(tmp_path):
-    table = [[*HEADER[:4], "Phase (rad)"], *ROWS]
-    assert (
-        "a phase of 4.2 rad is 241 deg, more than any material has; if the numbers are degrees, write deg"
-        in refusal(tmp_path, [table[0], [*ROWS[0][:4], "4.2"], *ROWS[1:]])
-    )
+def test_a_unit_that_is_chosen_and_stands_below(tmp_path):
+    assert read(tmp_path, BELOW, E_ksi="Wert").table.columns["E_MPa"][0] == "67568.62147"
 
 
 @pytest.mark.parametrize(
@@ -67,45 +88,14 @@ def test_a_unit_that_is_not_said_is_taken_only_if_the_numbers_leave_one(tmp_path
     names = ["specimen", "Temperatur", "Frequenz", "E (MPa)", "Phasenwinkel"]
     rows = [[s, t, f, e + 10 * f, p] for s, t, f, e, p in [*ROWS, *(("A", 40, f, 3000, 30) for f in (10, 1))]]
     campaign = read(tmp_path, [names, *rows])
-    assert said(campaign, "'Frequenz' does not say its unit: Hz taken")
-    assert said(campaign, "'Temperatur' does not say its unit: C taken, because 40 degF would be too cold")
-    assert said(
-        campaign, "'Phasenwinkel' does not say its unit: deg taken, because no phase in rad is that large"
-    )
+    said_units = read(tmp_path, [HEADER, *rows])
+    assert campaign.table.columns == said_units.table.columns
+    for name, unit in (("Frequenz", "Hz"), ("Temperatur", "C"), ("Phasenwinkel", "deg")):
+        assert said(campaign, f"'{name}'", f"{unit} taken")
     warm = [[s, 40 + t, f, e, p] for s, t, f, e, p in rows]
-    assert "'Temperatur' does not say its unit" in refusal(tmp_path, [names, *warm])
+    refused(read, tmp_path, [names, *warm], names=["'Temperatur'"])
     small = [[*row[:4], 0.3] for row in rows]
-    assert "'Phasenwinkel' does not say its unit" in refusal(tmp_path, [names, *small])
-    assert "'omega' does not say its unit" in refusal(tmp_path, [[*HEADER[:2], "omega", *HEADER[3:]], *ROWS])
-    assert "an angular frequency is in rad/s" in refusal(
-        tmp_path, [[*HEADER[:2], "omega (Hz)", *HEADER[3:]], *ROWS]
-    )
-    assert "'E' does not say its unit" in refusal(tmp_path, [[*HEADER[:3], "E", HEADER[4]], *ROWS])
-
-
-def test_units_behind_the_numbers(tmp_path):
-    rows = [[s, f"{t} °C", f"{f} Hz", f"{e} MPa", f"{p}°"] for s, t, f, e, p in ROWS]
-    campaign = read(tmp_path, [["specimen", "Temperature", "Frequency", "Modulus", "Phase"], *rows])
-    assert campaign.table.columns == as_is(tmp_path)
-    rows[2][3] = "9 GPa"
-    assert "line 2: Modulus: '9800 MPa' has a unit that the column or other cells have not" in refusal(
-        tmp_path, [["specimen", "Temperature", "Frequency", "Modulus", "Phase"], *rows]
-    )
-
-
-@pytest.mark.parametrize("first", ["", "-", "[-]"])
-def test_a_line_of_units_with_a_dash_for_names(tmp_path, first):
-    table = [["specimen", "T", "f", "E*", "phi"], [first, "[°C]", "[Hz]", "[MPa]", "[°]"], *ROWS]
-    assert read(tmp_path, table).table.columns == as_is(tmp_path)
-
-
-def test_a_line_of_units_that_contradicts_the_names(tmp_path):
-    units = ["", "°C", "Hz", "GPa", "deg"]
-    assert "line 2: the unit 'GPa' below column 'E (MPa)' is another" in refusal(
-        tmp_path, [HEADER, units, *ROWS]
-    )
-    units[3] = "MPa"
-    assert read(tmp_path, [HEADER, units, *ROWS]).table.columns == as_is(tmp_path)
+    refused(read, tmp_path, [names, *small], names=["'Phasenwinkel'"])
 
 
 @pytest.mark.parametrize(
