@@ -21,13 +21,32 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd import cli
 from asphalt_nscd.cli import diagnose
+from asphalt_nscd.files import commit
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save, write_table
 from asphalt_nscd.reporting.figures.save import save_figure
 
 
+WHOLE = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.2"
+INSIDE = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
+
+
 def run(*arguments, cwd=".", env=os.environ):
     return forked("asphalt_nscd.cli:main", [*map(str, arguments)], cwd, env)
+
+
+def refused(done, *names):
+    """In one line that holds the names."""
+    assert done.returncode == 2
+    assert done.stderr.startswith("error: ") and done.stderr.count("\n") == 1, done.stderr
+    assert all(name in done.stderr for name in names), done.stderr
+
+
+def status(error):
+    def step():
+        raise error
+
+    return cli._status(step)
 
 
 def test_every_step_is_listed_and_explains_itself():
@@ -55,63 +74,35 @@ def test_help_imports_nothing_heavy():
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout == "set()\n"
 
 
-def test_an_output_that_is_a_file_is_refused_with_its_mend(tmp_path):
-    there = tmp_path / "there"
-    there.write_text("")
-    with pytest.raises(FileExistsError) as raised:
-        there.mkdir()
-    assert (
-        cli._file_trouble(raised.value) == f"{there}: file exists; give a folder, or a path where nothing is."
-    )
-
-
 def test_the_machine_of_one_campaign_is_looked_for_by_compare():
     done = CliRunner().invoke(diagnose.command, ["a.csv", "--same-machine", "--output", "x"])
-    assert done.exit_code == 2 and "asphalt-nscd compare --same-machine FILE FILE" in done.output
+    assert done.exit_code == 2
+    assert "asphalt-nscd compare --same-machine FILE FILE" in done.output
 
 
-def test_unknown_step_is_refused():
-    done = run("simulat")
-    assert done.returncode == 2
-    assert "No such command 'simulat'" in done.stderr
+FULL = RuntimeError("Unable to flush cached information (errno = 28, error message = 'No space left')")
 
 
 @pytest.mark.parametrize(
-    ("error", "status", "sentence"),
+    ("error", "returned", "names"),
     [
-        (InputError("m.csv: row 3: no."), 2, "error: m.csv: row 3: no.\n"),
-        (
-            OSError(errno.ENOSPC, "No space left on device", "out.h5"),
-            2,
-            "error: out.h5: no space left on device; free some space and run the same command again.\n",
-        ),
-        (
-            RuntimeError("Unable to flush cached information (errno = 28, error message = 'No space left')"),
-            2,
-            "error: output file: no space left on device; free some space and run the same command again.\n",
-        ),
-        (KeyboardInterrupt(), 130, "error: interrupted; nothing half-written is left.\n"),
-        *(
-            (
-                error,
-                2,
-                "error: the memory is used up; end other programs, or run fewer jobs at a time (--cores 1).\n",
-            )
-            for error in (
-                MemoryError(),
-                ImportError("x.so: failed to map segment from shared object"),
-                SystemError("error return without exception set"),
-                SystemError("<function f> returned NULL without setting an exception"),
-            )
-        ),
+        (InputError("m.csv: row 3: no."), 2, ["m.csv: row 3: no."]),
+        (FileExistsError(errno.EEXIST, "File exists", "there"), 2, ["there: file exists"]),
+        (OSError(errno.ENOSPC, "No space left on device", "out.h5"), 2, ["out.h5: no space left on device"]),
+        (FULL, 2, ["output file: no space left on device"]),
+        (KeyboardInterrupt(), 130, ["interrupted"]),
+        (MemoryError(), 2, ["memory"]),
+        (ImportError("x.so: failed to map segment from shared object"), 2, ["memory"]),
+        (SystemError("error return without exception set"), 2, ["memory"]),
+        (SystemError("<function f> returned NULL without setting an exception"), 2, ["memory"]),
+        (ModuleNotFoundError("No module named 'docutils'", name="docutils"), 2, ["docutils"]),
     ],
 )
-def test_trouble_is_one_sentence(capsys, error, status, sentence):
-    def step():
-        raise error
-
-    assert cli._status(step) == status
-    assert capsys.readouterr().err == sentence
+def test_trouble_is_one_sentence(capsys, error, returned, names):
+    assert status(error) == returned
+    said = capsys.readouterr().err
+    assert said.startswith("error: ") and said.count("\n") == 1
+    assert all(name in said for name in names)
 
 
 @pytest.mark.parametrize("error", [pickle.UnpicklingError("pickle data was truncated"), EOFError()])
@@ -119,12 +110,8 @@ def test_damaged_compiled_core_is_removed(capsys, monkeypatch, tmp_path, error):
     (core := tmp_path / "core").mkdir()
     (core / "kernel.nbi").write_bytes(b"half")
     monkeypatch.setattr("asphalt_nscd.nscd.core_cache.core_folder", lambda: str(core))
-
-    def step():
-        raise error
-
-    assert cli._status(step) == 2
-    assert capsys.readouterr().err.startswith(f"error: {core}: the compiled core was damaged; it was removed")
+    assert status(error) == 2
+    assert capsys.readouterr().err.startswith(f"error: {core}: ")
     assert not core.exists()
 
 
@@ -132,38 +119,42 @@ def test_damaged_compiled_core_is_removed(capsys, monkeypatch, tmp_path, error):
     "error", [RuntimeError("ours"), ValueError("too"), ImportError("no module"), SystemError("bad argument")]
 )
 def test_mistakes_in_the_program_keep_their_traceback(error):
-    def step():
-        raise error
-
     with pytest.raises(type(error)):
-        cli._status(step)
-
-
-def test_input_that_is_not_there():
-    done = run("fit", "gone.csv", "--temperature-c", 15, "--output", "law.json")
-    assert done.returncode == 2
-    assert done.stderr.startswith("error: gone.csv: ")
-    assert done.stderr.count("\n") == 1
+        status(error)
 
 
 @pytest.mark.parametrize(
-    "geometry",
-    ["b_mm=25", "b_mm=25,B_mm=wide", "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.2,x=1"],
+    ("arguments", "names"),
+    [
+        (["fit", "gone.csv", "--temperature-c", 15, "--output", "law.json"], ["error: gone.csv: "]),
+        (["table", "packin", "tests=a.h5", "--output", "o.csv"], ["'packin'", "packing"]),
+        (["table", "table4", "--output", "x.csv"], ["simulations, measured"]),
+        (["figure", "fig09", "laws=l", "--output-stem", "x"], ["simulations, measured"]),
+        (["table", "table4", "simulation=s", "--output", "x.csv"], ["simulation"]),
+        (["table", "table2", "gradings=g", "--output", "x.csv"], ["gradings", "grading, published, used"]),
+        (["study", "{bad", "--output", "x.json"], ["STUDY"]),
+    ],
 )
-def test_geometry_that_is_incomplete_or_no_number(geometry):
-    done = run("reduce", "m.csv", "--geometry", geometry, "--output", "o.csv")
-    assert done.returncode == 2
-    assert "'--geometry'" in done.stderr and "Traceback" not in done.stderr
+def test_input_that_is_not_there_or_not_known_is_named(tmp_path, arguments, names):
+    refused(run(*arguments, cwd=tmp_path), *names)
+    assert not list(tmp_path.iterdir())
 
 
-def test_table_or_figure_that_does_not_exist_and_data_without_a_kind():
-    done = run("table", "packin", "tests=a.h5", "--output", "o.csv")
+@pytest.mark.parametrize(
+    ("arguments", "name"),
+    [
+        (["simulat"], "'simulat'"),
+        (["reduce", "m.csv", "--geometry", "b_mm=25", "--output", "o.csv"], "'--geometry'"),
+        (["reduce", "m.csv", "--geometry", "b_mm=25,B_mm=wide", "--output", "o.csv"], "'--geometry'"),
+        (["reduce", "m.csv", "--geometry", WHOLE + ",x=1", "--output", "o.csv"], "'--geometry'"),
+        (["figure", "fig07", "a.h5", "--output-stem", "o"], "'a.h5'"),
+    ],
+)
+def test_arguments_that_cannot_be_understood_are_named(arguments, name):
+    done = run(*arguments)
     assert done.returncode == 2
-    assert done.stderr.startswith("error: 'packin' is not among the tables; give one of ")
-    assert "packing" in done.stderr and done.stderr.count("\n") == 1
-    done = run("figure", "fig07", "a.h5", "--output-stem", "o")
-    assert done.returncode == 2
-    assert "'a.h5' is not of the form kind=path" in done.stderr
+    assert name in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 def write_large():
@@ -184,9 +175,7 @@ def write_large():
 @pytest.mark.parametrize("kind", ["h5", "csv", "pdf"])
 def test_file_that_cannot_be_written_in_full_is_not_left(tmp_path, kind):
     done = forked(f"{__name__}:write_large", [str(tmp_path / f"out.{kind}")])
-    assert done.returncode == 2, done.stderr
-    assert done.stderr.startswith(f"error: {tmp_path}/out.{kind}: ") and done.stderr.count("\n") == 1
-    assert "file too large" in done.stderr
+    refused(done, f"error: {tmp_path}/out.{kind}: ", "file too large")
     assert not list(tmp_path.iterdir())
 
 
@@ -262,120 +251,78 @@ def test_number_out_of_its_range_is_refused_before_anything_is_read(arguments, c
 
 
 @pytest.mark.parametrize(
-    ("arguments", "sentence"),
-    [
-        (["table", "table4", "--output", "x.csv"], "data simulations, measured: missing"),
-        (["figure", "fig09", "laws=l", "--output-stem", "x"], "data simulations, measured: missing"),
-        (["table", "table4", "simulation=s", "--output", "x.csv"], "data simulation: not known"),
-        (
-            ["table", "table2", "gradings=g", "--output", "x.csv"],
-            "data gradings: not known; give grading, published, used",
-        ),
-    ],
-)
-def test_data_that_a_table_or_figure_does_not_take_is_named(
-    arguments, sentence, capsys, tmp_path, monkeypatch
-):
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(SystemExit) as stop:
-        cli.main(arguments)
-    assert stop.value.code == 2 and sentence in capsys.readouterr().err
-    assert not list(tmp_path.iterdir())
-
-
-def test_study_that_is_no_json(capsys, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    with pytest.raises(SystemExit) as stop:
-        cli.main(["study", "{bad", "--output", "x.json"])
-    assert stop.value.code == 2
-    said = capsys.readouterr().err
-    assert said.startswith("error: STUDY is not valid JSON") and said.count("\n") == 1
-    assert not list(tmp_path.iterdir())
-
-
-@pytest.mark.parametrize(
     "damage", [lambda whole: whole[:-200], lambda whole: whole[:700] + b"x" + whole[701:], lambda _: b""]
 )
 def test_damaged_result_is_set_aside_within_the_workflow_only(tmp_path, damage):
     save(path := tmp_path / "f3.h5", "test", {"force_N": [1.0, 2.0]}, {"specimen": "s1"})
     path.write_bytes(damage(path.read_bytes()))
-    done = run("collect", path, "--output", tmp_path / "x.csv")
-    assert done.returncode == 2 and path.exists()
-    assert done.stderr.startswith(f"error: {path}: ") and done.stderr.count("\n") == 1
-    assert done.stderr.endswith("; delete it and run the workflow again.\n")
-    done = run("collect", path, "--output", tmp_path / "x.csv", env={**os.environ, cli.WITHIN_WORKFLOW: "1"})
-    assert done.returncode == 2 and not path.exists()
-    assert done.stderr.endswith(
-        "; it was set aside as .f3.h5.damaged, run the workflow again to make it anew.\n"
-    )
-    assert done.stderr.count("\n") == 1 and [file.name for file in tmp_path.iterdir()] == [".f3.h5.damaged"]
+    refused(run("collect", path, "--output", tmp_path / "x.csv"), f"error: {path}: ")
+    assert path.exists()
+    refused(run("collect", path, "--output", tmp_path / "x.csv", env=INSIDE), ".f3.h5.damaged")
+    assert [file.name for file in tmp_path.iterdir()] == [".f3.h5.damaged"]
 
 
-def test_input_that_is_no_result_of_ours_is_never_removed(tmp_path):
-    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
+def test_input_that_is_no_result_of_ours_is_never_removed_and_one_of_another_kind_is(tmp_path):
     (geometry := tmp_path / "g.json").write_text("{")
-    assert run("trim", "d.h5", "--geometry", geometry, "--output", "x", env=inside).returncode == 2
-    assert run("reduce", geometry, "--geometry", geometry, "--output", "x", env=inside).returncode == 2
     save(model := tmp_path / "m.h5", "model", {}, {})
-    assert run("collect", model, "--output", tmp_path / "x.csv", env=inside).returncode == 2
-    assert geometry.exists() and model.exists()
+    save(made := tmp_path / "results/mine/f3.h5", "model", {}, {})
+    refused(run("trim", "d.h5", "--geometry", geometry, "--output", "x", env=INSIDE))
+    assert run("reduce", geometry, "--geometry", geometry, "--output", "x", env=INSIDE).returncode == 2
+    for path in (model, made):
+        done = run("collect", path.relative_to(tmp_path), "--output", "x.csv", env=INSIDE, cwd=tmp_path)
+        refused(done, "a test file", "a model file")
+    assert geometry.exists()
+    assert model.exists()
+    assert not made.exists()
 
 
 @pytest.mark.parametrize(
     "content", ["", "specimen,E_MPa\n", "specimen,E_MPa\n1\n", "specimen,E_MPa\n\x80", '"']
 )
 def test_a_cut_table_is_made_anew_where_the_workflow_made_it_and_left_where_a_user_did(tmp_path, content):
-    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
     for place, made in (("results/mine", True), ("results/published/mine", False), ("data", False)):
         (table := tmp_path / place / "measured.csv").parent.mkdir(parents=True)
         table.write_text(content, encoding="latin-1")
         tables = (f"{kind}={place}/measured.csv" for kind in ("measured", "simulations", "published"))
-        done = run("table", "table4", *tables, "--output", "x.csv", env=inside, cwd=tmp_path)
-        assert done.returncode == 2 and done.stderr.count("\n") == 1, done.stderr
-        assert table.exists() != made, done.stderr
-        assert done.stderr.endswith(", run the workflow again to make it anew.\n") == made
+        refused(run("table", "table4", *tables, "--output", "x.csv", env=INSIDE, cwd=tmp_path))
+        assert table.exists() != made
     assert not (tmp_path / "x.csv").exists()
+
+
+GEOMETRY = "b_mm,B_mm,e_mm,h_mm,mass_kg,mobile_mass_kg\n25,56,25,250,0.6,0.1\n"
+MODULI = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\na,10,3,5000,20\nb,10,3,5100,21\n"
 
 
 @pytest.mark.parametrize(
     "damage", [lambda text: text.replace("5000", "5001"), lambda text: text[: text[:-1].rfind("\n") + 1]]
 )
 def test_a_digit_changed_or_a_line_lost_is_noticed_within_the_workflow(tmp_path, damage):
-    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
-    (tmp_path / "geometry.csv").write_text(
-        "b_mm,B_mm,e_mm,h_mm,mass_kg,mobile_mass_kg\n25,56,25,250,0.6,0.1\n"
-    )
-    (tmp_path / "m.csv").write_text(
-        "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\na,10,3,5000,20\nb,10,3,5100,21\n"
-    )
-    reduce = ("reduce", "m.csv", "--geometry", "geometry.csv", "--output", "results/mine/measured.csv")
-    assert run(*reduce, env=inside, cwd=tmp_path).returncode == 0
-    page = ("page", "results/mine/measured.csv", "--title", "t", "--output", "page.html")
-    assert run(*page, env=inside, cwd=tmp_path).returncode == 0
+    (tmp_path / "geometry.csv").write_text(GEOMETRY)
+    (tmp_path / "m.csv").write_text(MODULI)
     table = tmp_path / "results/mine/measured.csv"
-    assert damage(table.read_text()) != table.read_text()
-    table.write_text(changed := damage(table.read_text()))
-    done = run(*page, env=inside, cwd=tmp_path)
-    assert done.returncode == 2 and not table.exists() and "edited after the workflow wrote it" in done.stderr
+    reduce = ("reduce", "m.csv", "--geometry", "geometry.csv", "--output", "results/mine/measured.csv")
+    page = ("page", "results/mine/measured.csv", "--title", "t", "--output", "page.html")
+    for step in (reduce, page):
+        assert run(*step, env=INSIDE, cwd=tmp_path).returncode == 0
+    changed = damage(table.read_text())
+    assert changed != table.read_text()
+    table.write_text(changed)
+    refused(run(*page, env=INSIDE, cwd=tmp_path), "results/mine/measured.csv")
+    assert not table.exists()
     assert table.with_name(".measured.csv.damaged").read_text() == changed
-    assert (
-        run(*reduce, env=inside, cwd=tmp_path).returncode
-        == run(*page, env=inside, cwd=tmp_path).returncode
-        == 0
-    )
+    for step in (reduce, page):
+        assert run(*step, env=INSIDE, cwd=tmp_path).returncode == 0
 
 
 def test_a_step_repeated_by_hand_is_no_damage_and_a_digest_cut_short_no_verdict(tmp_path):
-    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
     table, digest = tmp_path / "results/mine/m.csv", tmp_path / "results/mine/.m.csv.sha256"
     table.parent.mkdir(parents=True)
     page = ("page", "results/mine/m.csv", "--title", "t", "--output", "results/mine/page.html")
     table.write_text("a\n1\n")
     digest.write_text("0" * 63)
-    assert run(*page, env=inside, cwd=tmp_path).returncode == 0
+    assert run(*page, env=INSIDE, cwd=tmp_path).returncode == 0
     digest.write_text("0" * 64)
-    assert run(*page, env=inside, cwd=tmp_path).returncode == 2
-
+    assert run(*page, env=INSIDE, cwd=tmp_path).returncode == 2
     made = tmp_path / "results/mine/.page.html.sha256"
     before = made.read_text()
     table.write_text("a\n2\n")
@@ -386,38 +333,13 @@ def test_a_step_repeated_by_hand_is_no_damage_and_a_digest_cut_short_no_verdict(
     assert not made.exists()
 
 
-def test_a_result_of_another_kind_is_made_anew(tmp_path):
-    save(path := tmp_path / "results/mine/f3.h5", "model", {}, {})
-    inside = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
-    done = run("collect", "results/mine/f3.h5", "--output", "x.csv", env=inside, cwd=tmp_path)
-    assert (
-        done.returncode == 2
-        and not path.exists()
-        and "expected a test file; found a model file" in done.stderr
-    )
-
-
 def test_version_names_the_commit(monkeypatch, tmp_path):
-    from asphalt_nscd.files import commit
-
-    said = run("--version").stdout
-    assert said.startswith("asphalt-nscd 0.1.0, commit ") and len(said.split()) == 4
-    monkeypatch.setattr(
-        commit, "PACKAGE", tmp_path
-    )  # as in an environment that lies in no repository of ours
+    assert re.fullmatch(r"asphalt-nscd 0\.1\.0, commit \S+\n", run("--version").stdout)
+    # as in an environment that lies in no repository of ours
+    monkeypatch.setattr(commit, "PACKAGE", tmp_path)
     assert commit.commit() == "unknown"
     (tmp_path / commit.BUILT_FROM).write_text("abc\n")
     assert commit.commit() == "abc"
-
-
-def test_a_step_of_the_workflow_without_its_extra_is_one_sentence(capsys):
-    def step():
-        raise ModuleNotFoundError("No module named 'docutils'", name="docutils")
-
-    assert cli._status(step) == 2
-    assert (
-        capsys.readouterr().err == "error: this step needs docutils; pip install 'asphalt-nscd[workflow]'.\n"
-    )
 
 
 @pytest.mark.parametrize("threads", ["0", "-2", "1000000"])
@@ -425,16 +347,21 @@ def test_threads_that_the_machine_has_not_are_refused_before_anything_is_compile
     threads, capsys, tmp_path, monkeypatch
 ):
     monkeypatch.setattr("asphalt_nscd.nscd.core_cache.is_compiled", lambda _: False)
-    counts, output = tmp_path / "counts.csv", tmp_path / "s1.h5"
-    counts.write_text("diameter_mm,count\n5,20\n")
+    monkeypatch.chdir(tmp_path)
+    Path("counts.csv").write_text("diameter_mm,count\n5,20\n")
+    box = [
+        "deposit",
+        "--counts",
+        "counts.csv",
+        "--box-m",
+        "0.05,0.02,0.12",
+        "--seed",
+        "1",
+        "--output",
+        "s1.h5",
+    ]
     with pytest.raises(SystemExit) as stop:
-        cli.main(
-            ["deposit", "--counts", str(counts), "--box-m", "0.05,0.02,0.12", "--seed", "1", "--threads", threads,
-             "--output", str(output)]
-        )  # fmt: skip
+        cli.main([*box, "--threads", threads])
     assert stop.value.code == 2
-    said = capsys.readouterr().err
-    assert re.fullmatch(
-        rf"error: threads = {threads}: give a whole number from 1 to \d+, the cores .*\n", said
-    )
-    assert not output.exists()
+    assert f"threads = {threads}" in capsys.readouterr().err
+    assert not Path("s1.h5").exists()

@@ -47,34 +47,28 @@ def answer(*arguments: str) -> str:
 
 
 def test_values_arrive_in_the_unit_of_the_field():
-    got = answer(
-        "a", "b", "--count", "2", "--stroke-mm", "7", "--friction", "0.3", "--title", "x", "--title", "y"
-    )
-    assert got == repr(
-        ((Path("a"), Path("b")), Outer(count=2, inner=Inner(0.007)), 0.3, ("x", "y"), None, True)
-    )
-    assert answer("a", "--count", "1", "--numbers", "1,2.5", "--no-page") == repr(
-        ((Path("a"),), Outer(count=1), Bonds.friction, (), (1.0, 2.5), False)
-    )
+    given = "a b --count 2 --stroke-mm 7 --friction 0.3 --title x --title y".split()
+    inner = Inner(0.007)
+    expected = (Path("a"), Path("b")), Outer(count=2, inner=inner), 0.3, ("x", "y"), None, True
+    assert answer(*given) == repr(expected)
+    expected = (Path("a"),), Outer(count=1), Bonds.friction, (), (1.0, 2.5), False
+    assert answer("a", "--count", "1", "--numbers", "1,2.5", "--no-page") == repr(expected)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "sentence"),
+    ("arguments", "names"),
     [
-        (("--count", "1"), "Missing argument 'FILES...'"),
-        (("a",), "Missing option '--count'"),
-        (("a", "--count", "0"), "0 is not in the range x>=1"),
-        (
-            ("a", "--count", "1", "--stroke-mm", "1000.1"),
-            "'1000.1' must be a number at least 0 and at most 1000.",
-        ),
-        (("a", "--count", "1", "--stroke-mm", "nan"), "'nan' must be a number at least 0 and at most 1000."),
-        (("a", "--count", "1", "--numbers", "0"), "'0' is not different positive numbers joined by commas."),
-        (("a", "--count", "1", "--poisson", "0.2"), "No such option"),
+        (("--count", "1"), ["'FILES...'"]),
+        (("a",), ["'--count'"]),
+        (("a", "--count", "0"), ["'--count'", "0 is not in the range x>=1"]),
+        (("a", "--count", "1", "--stroke-mm", "1000.1"), ["'--stroke-mm'", "at least 0 and at most 1000."]),
+        (("a", "--count", "1", "--stroke-mm", "nan"), ["'--stroke-mm'", "'nan'"]),
+        (("a", "--count", "1", "--numbers", "0"), ["'--numbers'", "'0'"]),
+        (("a", "--count", "1", "--poisson", "0.2"), ["--poisson"]),
     ],
 )
-def test_what_is_wrong_is_answer(arguments, sentence):
-    assert sentence in answer(*arguments)
+def test_what_is_wrong_is_answer(arguments, names):
+    assert all(name in answer(*arguments) for name in names)
 
 
 def test_help_has_the_default_in_the_unit_of_the_option():

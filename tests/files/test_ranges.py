@@ -24,10 +24,7 @@ NAN, INF, BOX = float("nan"), float("inf"), (0.1, 0.1, 0.1)
         (lambda: Bonds(yield_Pa=-1.0), "bonds: yield_Pa = -1;"),
         (lambda: Bonds(friction=-1.0), "bonds: friction = -1; give a number at least 0 and at most 100."),
         (lambda: Bonds(friction=INF), "bonds: friction = inf;"),
-        (
-            lambda: Bonds(poisson=0.51),
-            "bonds: poisson = 0.51; give a number greater than -1 and at most 0.5.",
-        ),
+        (lambda: Bonds(poisson=0.51), "bonds: poisson = 0.51; give a number greater than -1 and at most 0.5"),
         (lambda: Bonds(kt_over_kn=0.0), "bonds: kt_over_kn = 0;"),
         (lambda: Bonds(kt_over_kn=1e-7), "bonds: kt_over_kn = 1e-07;"),  # statics are not solved
         (lambda: Bonds(head="loose"), "bonds: head = 'loose' is not known; give one of free, blocked."),

@@ -5,8 +5,8 @@ from __future__ import annotations
 import io
 import zipfile
 
-import openpyxl
 import pytest
+from table_import.slips import workbook
 
 pytest.importorskip("flask")
 
@@ -43,29 +43,21 @@ def dropped(client, *files):
     return client.post(f"{PAGE}files", data=data, content_type="multipart/form-data")
 
 
-def workbook(rows):
-    book = openpyxl.Workbook()
-    for row in rows:
-        book.active.append(row)
-    book.save(saved := io.BytesIO())
-    return saved.getvalue()
-
-
 def test_only_the_user_is_answered(client):
     assert client.get(PAGE).status_code == 200
     for address in ("/", "/other/", "/secre/", "/other/job"):
         assert client.get(address).status_code in (403, 404)
     assert client.get(PAGE, headers={"Host": "evil.example"}).status_code == 403
-    assert (
-        client.post(f"{PAGE}diagnose", json={}, headers={"Origin": "http://evil.example"}).status_code == 403
-    )
+    elsewhere = {"Origin": "http://evil.example"}
+    assert client.post(f"{PAGE}diagnose", json={}, headers=elsewhere).status_code == 403
 
 
 def test_a_page_loads_nothing_from_elsewhere(client):
     answer = client.get(PAGE)
     assert "default-src 'none'" in answer.headers["Content-Security-Policy"]
     assert answer.headers["Referrer-Policy"] == "no-referrer"  # which would hold the token
-    assert "innerHTML" not in answer.text and "http" not in answer.text
+    assert "innerHTML" not in answer.text
+    assert "http" not in answer.text
 
 
 @pytest.mark.parametrize(
@@ -84,40 +76,49 @@ def test_names_of_files_are_names_and_no_paths(name, safe):
 def test_files_are_read_and_said(client, app):
     answer = dropped(client, ("../../t.csv", TABLE.encode()))
     content = answer.get_json()
-    assert answer.status_code == 200 and content["state"] == "done" and content["tests"] == 8
-    assert content["files"] == ["t.csv"]
+    assert answer.status_code == 200
+    assert (content["state"], content["tests"], content["files"]) == ("done", 8, ["t.csv"])
     held = {one["name"]: (one["quantity"], one["unit"]) for one in content["columns"]}
-    assert held["E (MPa)"] == ("E_MPa", "MPa") and held["T (°C)"] == ("temperature_C", "C")
-    assert held["specimen"] == ("specimen", "")
-    assert not any(str(app.config["DESK"].folder) in note for note in content["notes"])
-    assert client.post(f"{PAGE}read", json={"measured_in": "torsion"}).status_code == 400
-    assert client.post(f"{PAGE}read", json={"law": "burger"}).status_code == 400
-    assert client.post(f"{PAGE}read", json={"law": "cam"}).status_code == 200
+    expected = {"E (MPa)": ("E_MPa", "MPa"), "T (°C)": ("temperature_C", "C"), "specimen": ("specimen", "")}
+    assert held.items() >= expected.items()
+    # Notes hold no folder of the server, and menus of the page for options of the command.
+    assert not any(str(app.config["DESK"].folder) in note or "--" in note for note in content["notes"])
 
 
-def test_what_is_no_table_is_refused(client):
-    assert "give files that end in" in dropped(client, ("t.exe", b"MZ")).get_json()["error"]
-    assert (
-        "two files have this name"
-        in dropped(client, ("a/t.csv", b"a"), ("b/t.csv", b"b")).get_json()["error"]
-    )
+@pytest.mark.parametrize(
+    ("choice", "status"), [({"measured_in": "torsion"}, 400), ({"law": "burger"}, 400), ({"law": "cam"}, 200)]
+)
+def test_choices_are_those_of_the_page(client, choice, status):
+    dropped(client, ("t.csv", TABLE.encode()))
+    assert client.post(f"{PAGE}read", json=choice).status_code == status
+
+
+@pytest.mark.parametrize(
+    ("files", "name"),
+    [
+        ([("t.exe", b"MZ")], "t.exe"),
+        ([("a/t.csv", b"a"), ("b/t.csv", b"b")], "t.csv"),
+        ([("t.csv", TABLE.replace("E (MPa)", "S (MPa)").encode())], "in its menu below"),
+        ([("t.csv", TABLE.replace("specimen", "x").encode())], "in its menu below"),
+    ],
+)
+def test_what_is_no_table_is_refused(client, files, name):
+    assert name in dropped(client, *files).get_json()["error"]
     assert client.post(f"{PAGE}diagnose", json={}).status_code in (200, 409)
 
 
-def test_much_more_than_a_table_is_refused(client, app, monkeypatch):
-    app.config["MAX_CONTENT_LENGTH"] = 1000
-    answer = dropped(client, ("t.csv", b"1" * 2000))
-    assert answer.status_code == 413 and "more than 40 MB" in answer.get_json()["error"]
-    assert pages.MOST_BYTES < 100e6
-    assert app.config["DESK"].files == []
-
-
-def test_more_files_or_lines_than_a_campaign_has_are_refused(client, tmp_path):
+def test_much_more_than_a_campaign_is_refused(client, app, tmp_path):
     many = [(f"t{n}.csv", TABLE.encode()) for n in range(pages.MOST_FILES + 11)]
-    answer = dropped(client, *many)
-    assert answer.status_code == 413 and "more than 100 files" in answer.get_json()["error"]
+    answers = {"100 files": dropped(client, *many)}
+    assert app.config["MAX_CONTENT_LENGTH"] == pages.MOST_BYTES < 100e6
+    app.config["MAX_CONTENT_LENGTH"] = 1000
+    answers["40 MB"] = dropped(client, ("t.csv", b"1" * 2000))
+    for name, answer in answers.items():
+        assert answer.status_code == 413
+        assert name in answer.get_json()["error"]
+    assert app.config["DESK"].files == []
     (tmp_path / "t.csv").write_text("T (C),f (Hz),E (MPa),phi (deg)\n" + "4,10,12345,12\n" * 21_001)
-    with pytest.raises(InputError, match="t.csv: more than 20000 rows or 300 columns"):
+    with pytest.raises(InputError, match="t.csv: more than 20000 rows"):
         read_tables([tmp_path / "t.csv"], Choices())
 
 
@@ -126,65 +127,41 @@ def test_an_archive_that_unpacks_to_much_more_is_refused(tmp_path):
         archive.writestr("xl/worksheets/sheet1.xml", b"0" * 60_000_000)
     job = Job("read", [tmp_path / "t.xlsx"], Choices(), None, 60.0)
     job.finish()
-    assert job.state == "failed" and "unpacks to 60 MB" in job.result["error"]
+    assert job.state == "failed"
+    assert "60 MB" in job.result["error"]
     assert str(tmp_path) not in job.result["error"]
 
 
-def test_html_in_cells_is_text(tmp_path):
+def test_html_in_cells_is_handed_on_as_it_is(tmp_path):
+    """The page makes text of it."""
     evil = "<img src=x onerror=alert(1)>"
-    rows = [["specimen", "T (°C)", "f (Hz)", "E (MPa)", "phi (°)", evil]]
-    rows += [["A", t, f, 15000 - 300 * t + 400 * f, 20 + 0.3 * t - f, evil] for t in (4, 21) for f in (10, 1)]
-    (tmp_path / "t.xlsx").write_bytes(workbook(rows))
-    read = read_tables([tmp_path / "t.xlsx"], Choices())
-    assert any(
-        one["name"] == evil for one in read["columns"]
-    )  # handed on as it is: the page makes text of it
-
-
-def test_sentences_name_the_menus_of_the_page(client):
-    def error(table):
-        return dropped(client, ("t.csv", table.encode())).get_json()["error"]
-
-    assert error(TABLE.replace("E (MPa)", "S (MPa)")).endswith("or name a column of yours in its menu below.")
-    assert error(TABLE.replace("specimen", "x")).endswith("or say which is one, in its menu below.")
-    notes = dropped(client, ("t.csv", TABLE.encode())).get_json()["notes"]
-    assert "which test gave the moduli is not said; choose it in the menu" in notes
-    assert not any("--" in note for note in notes)
+    lines = [line.split(",") for line in TABLE.splitlines()]
+    rows = [[*lines[0], evil], *([s, *map(float, cells), evil] for s, *cells in lines[1:])]
+    read = read_tables([workbook(tmp_path / "t.xlsx", results=rows)], Choices())
+    assert evil in [one["name"] for one in read["columns"]]
 
 
 def test_columns_of_matrices_and_means_are_shown_as_they_were_read(tmp_path):
-    book = openpyxl.Workbook()
-    book.remove(book.active)
-    for name, title in (("E", "|E*| (MPa)"), ("P", "Phase (°)")):
-        sheet = book.create_sheet(name)
-        for row in ([title], ["T (°C) \\ f (Hz)", 1, 10], [4, 9.0, 8.0], [21, 7.0, 6.0]):
-            sheet.append(row)
-    book.save(tmp_path / "t.xlsx")
-    read = read_tables([tmp_path / "t.xlsx"], Choices())
-    assert [one["quantity"] for one in read["columns"]] == [
-        "temperature_C",
-        "frequency_Hz",
-        "E_MPa",
-        "phase_deg",
-    ]
-    book = openpyxl.Workbook()
-    for name in "AB":
-        sheet = book.create_sheet(name)
-        for row in (line.split(",")[1:] for line in TABLE.splitlines() if line[0] in ("s", name)):
-            sheet.append([float(cell) + (name == "B") if cell[0].isdigit() else cell for cell in row])
-    for row in (["T (°C)", "f (Hz)", "Mean E (MPa)", "Mean phi (°)"], [4, 10, 17800, 11.2]):
-        book.active.append(row)
-    book.save(tmp_path / "t.xlsx")
-    read = read_tables([tmp_path / "t.xlsx"], Choices())
+    titles = {"E": "|E*| (MPa)", "P": "Phase (°)"}
+    below = [["T (°C) \\ f (Hz)", 1, 10], [4, 9.0, 8.0], [21, 7.0, 6.0]]
+    path = workbook(tmp_path / "t.xlsx", **{name: [[title], *below] for name, title in titles.items()})
+    shown = read_tables([path], Choices())["columns"]
+    assert [one["quantity"] for one in shown] == ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
+    names, *rows = (line.split(",") for line in TABLE.splitlines())
+    tests = {s: [[float(cell) + (s == "B") for cell in row[1:]] for row in rows if row[0] == s] for s in "AB"}
+    sheets = {name: [names[1:], *tests[name]] for name in tests}
+    means = [["T (°C)", "f (Hz)", "Mean E (MPa)", "Mean phi (°)"], [4, 10, 17800, 11.2]]
+    read = read_tables([workbook(tmp_path / "t.xlsx", Sheet=means, **sheets)], Choices())
     assert read["specimens"] == ["A", "B"]
-    assert [one["name"] for one in read["columns"]] == ["T (°C)", "f (Hz)", "E (MPa)", "phi (°)"]
+    assert [one["name"] for one in read["columns"]] == names[1:]
 
 
 def test_work_that_takes_too_long_is_stopped(tmp_path):
     (tmp_path / "t.csv").write_text(TABLE)
     job = Job("read", [tmp_path / "t.csv"], Choices(), None, 0.0)
     job.finish()
-    assert job.state == "failed" and "took too long" in job.result["error"]
+    assert job.state == "failed"
+    assert "too long" in job.result["error"]
     job = Job("diagnose", [tmp_path / "t.csv"], Choices(), tmp_path, 60.0)
     job.stop()
     assert job.look() == "cancelled"
