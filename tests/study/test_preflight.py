@@ -36,6 +36,15 @@ def check(tmp_path, monkeypatch):
     return run
 
 
+def refused(check, *names, file="my.yaml", **changes):
+    with pytest.raises(InputError) as error:
+        check(**changes)
+    sentence = str(error.value)
+    assert sentence.startswith(f"{file}: ")
+    assert "\n" not in sentence
+    assert all(name in sentence for name in names), sentence
+
+
 def measure(*tests, form=PEAKS, values="20,6.3e-5,10"):
     """A table `mine.csv` of tests (temperature, frequency)."""
     rows = "".join(f"1,{temperature},{frequency},{values}\n" for temperature, frequency in tests)
@@ -55,37 +64,33 @@ def test_measurements_of_more_than_the_study_asks_for_are_welcome(check):
     check(measurements=measure(*FOUR, (40, 3), (20, 25)))
 
 
+ALONE = dict.fromkeys(("time_step_study", "packing_study", "audit", "sensitivity"))
+
+
 @pytest.mark.parametrize(
-    ("tests", "sentence"),
+    ("tests", "more", "names"),
     [
-        (FOUR[:2], "my.yaml: temperatures_C: 20 is not in mine.csv, which has 0; use these."),
-        (FOUR[::2], "my.yaml: frequencies_Hz: 10 is not in mine.csv, which has 3; use these."),
-        (FOUR[:3], "my.yaml: mine.csv has no test at 20 degC, 10 Hz; add it"),
-        ([*FOUR, (20, 10)], "my.yaml: measurements.table: mine.csv, line 6: repeats the test of line 5"),
+        (FOUR[:2], {}, ["temperatures_C: 20 is not in mine.csv", "has 0;"]),
+        (FOUR[::2], {}, ["frequencies_Hz: 10 is not in mine.csv", "has 3;"]),
+        (FOUR[:3], {}, ["mine.csv", "20 degC, 10 Hz"]),
+        ([*FOUR, (20, 10)], {}, ["measurements.table: mine.csv, line 6", "line 5"]),
+        (FOUR[:2], ALONE | {"temperatures_C": [0]}, ["mine.csv: 2 tests at 2 frequencies", "4 tests"]),
     ],
 )
-def test_every_test_needs_a_measurement(check, tests, sentence):
-    with pytest.raises(InputError) as error:
-        check(measurements=measure(*tests))
-    assert str(error.value).startswith(sentence)
+def test_every_test_needs_a_measurement_and_a_diagnosis_enough_of_them(check, tests, more, names):
+    refused(check, *names, measurements=measure(*tests), **more)
 
 
-def test_too_few_tests_for_a_diagnosis_are_refused_before_anything_is_poured(check):
-    few = "are too few for a diagnosis; measure at least 4 tests at 2 frequencies."
-    alone = dict.fromkeys(("time_step_study", "packing_study", "audit", "sensitivity"))
-    with pytest.raises(InputError, match=f"my.yaml: mine.csv: 2 tests at 2 frequencies {few}"):
-        check(measurements=measure(*FOUR[:2]), temperatures_C=[0], **alone)
-    with pytest.raises(InputError, match=f"my.yaml: frequencies_Hz: 4 tests at 1 frequency {few}"):
-        check(frequencies_Hz=[10], **alone)
+def test_a_diagnosis_of_drawn_measurements_needs_enough_frequencies(check):
+    refused(check, "frequencies_Hz: 4 tests at 1 frequency", frequencies_Hz=[10], **ALONE)
 
 
 def test_frequency_with_more_digits_than_tables_keep_is_found(check):
     tests = [(temperature, frequency) for temperature in (0, 20) for frequency in (10 / 3, 10)]
-    check(measurements=measure(*tests), frequencies_Hz=[3.3333333333, 10], time_step_study=None)
-    with pytest.raises(
-        InputError, match="frequencies_Hz: 3.33333 is not in mine.csv, which has 3.333333333, 10"
-    ):
-        check(measurements=measure(*tests), frequencies_Hz=[3.33333, 10], time_step_study=None)
+    study = {"measurements": measure(*tests), "time_step_study": None}
+    check(**study, frequencies_Hz=[3.3333333333, 10])
+    names = ["frequencies_Hz: 3.33333 is not in mine.csv", "has 3.333333333, 10"]
+    refused(check, *names, **study, frequencies_Hz=[3.33333, 10])
 
 
 def test_geometry_table_without_a_specimen(check):
@@ -93,53 +98,41 @@ def test_geometry_table_without_a_specimen(check):
     Path("shapes.csv").write_text(header + "\n2," + ",".join(map(str, check.geometry.values())) + "\n")
     specimens = check.specimens | {"geometry": check.geometry}
     changes = {"geometry": "shapes.csv", "specimens": specimens}
-    with pytest.raises(InputError, match="shapes.csv: specimen '1' has no geometry"):
-        check(**changes)
-    with pytest.raises(InputError, match="shapes.csv: specimen '1' has no geometry"):
-        check(**changes, measurements=measure(*FOUR))
+    refused(check, "specimen '1'", file="shapes.csv", **changes)
+    refused(check, "specimen '1'", file="shapes.csv", **changes, measurements=measure(*FOUR))
     moduli = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\n"
     check(**changes, measurements=measure(*FOUR, form=moduli, values="12000,20"))
 
 
 @pytest.mark.parametrize(
-    ("change", "sentence"),
+    ("change", "names"),
     [
-        (
-            {"h_mm": 0.06},
-            "my.yaml: geometry: h_mm = 0.06 is not a number from 20 to 1000; give the height in mm.",
-        ),
-        ({"mass_kg": 21}, "my.yaml: geometry: mass_kg = 21 is not a number from 0.001 to 20"),
-        ({"h_mm": 61}, "my.yaml: specimens: the specimen is 61 mm high, but the box only 60 mm long"),
-        ({"e_mm": 12}, "my.yaml: specimens: the specimen is 12 mm thick, but the box only 10 mm wide"),
+        ({"h_mm": 0.06}, ["geometry: h_mm = 0.06", "from 20 to 1000"]),
+        ({"mass_kg": 21}, ["geometry: mass_kg = 21", "from 0.001 to 20"]),
+        ({"h_mm": 61}, ["specimens: ", "61 mm", "60 mm"]),
+        ({"e_mm": 12}, ["specimens: ", "12 mm", "10 mm"]),
     ],
 )
-def test_implausible_geometry(check, change, sentence):
-    with pytest.raises(InputError) as error:
-        check(geometry=check.geometry | change)
-    assert str(error.value).startswith(sentence)
-    with pytest.raises(
-        InputError, match="my.yaml: specimens: geometry: mass_kg = 1e-07 is not a number from"
-    ):
-        check(specimens=check.specimens | {"geometry": check.geometry | {"mass_kg": 0.0000001}})
+def test_implausible_geometry(check, change, names):
+    refused(check, *names, geometry=check.geometry | change)
+
+
+def test_implausible_geometry_of_what_is_simulated(check):
+    light = check.specimens | {"geometry": check.geometry | {"mass_kg": 1e-7}}
+    refused(check, "specimens: geometry: mass_kg = 1e-07", specimens=light)
 
 
 def test_four_clamps_need_facets(check):
     beam = {"L_mm": 60, "H_mm": 10, "B_mm": 10, "mass_kg": 0.02, "mobile_mass_kg": 0}
-    with pytest.raises(
-        InputError, match="my.yaml: specimens: four-point bending clamps .*; give area facets."
-    ):
-        check(specimens=check.specimens | {"geometry": beam})
+    refused(check, "specimens: four-point bending", "facets", specimens=check.specimens | {"geometry": beam})
     check(specimens=check.specimens | {"geometry": beam, "bonds": {"area": "facets"}})
 
 
 def test_time_steps_too_coarse(check):
-    with pytest.raises(
-        InputError, match=r"my.yaml: test.time_step_s: .* fewer than 20 steps per cycle at 10 Hz"
-    ):
-        check(test={"time_step_s": 5.1e-3})
+    refused(check, "test.time_step_s", "20 steps", "10 Hz", test={"time_step_s": 5.1e-3})
     check(test={"time_step_s": 5e-3})
-    with pytest.raises(InputError, match=r"my.yaml: time_step_study.time_steps_s: time step 0.1 s: .* 10 Hz"):
-        check(time_step_study=STEPS | {"time_steps_s": [1e-4, 0.1]})
+    steps = STEPS | {"time_steps_s": [1e-4, 0.1]}
+    refused(check, "time_step_study.time_steps_s", "0.1 s", "10 Hz", time_step_study=steps)
 
 
 @pytest.mark.parametrize(
@@ -147,47 +140,41 @@ def test_time_steps_too_coarse(check):
 )
 def test_counts_that_cannot_be_poured(check, table):
     Path("counts.csv").write_text(table)
-    with pytest.raises(InputError, match="my.yaml: specimens.counts_table: counts.csv"):
-        check(specimens=check.specimens | {"counts_table": "counts.csv"})
+    specimens = check.specimens | {"counts_table": "counts.csv"}
+    refused(check, "specimens.counts_table: counts.csv", specimens=specimens)
 
 
 def test_temperature_without_a_published_law(check):
-    sentence = (
-        "my.yaml: temperatures_C: 5 is not in data/paper/table3_burgers.csv, which has -10, 0, 10, 15, 20, 30"
-    )
-    with pytest.raises(InputError, match=sentence):
-        check(temperatures_C=[5, 20])
+    names = ["temperatures_C: 5", "data/paper/table3_burgers.csv", "-10, 0, 10, 15, 20, 30"]
+    refused(check, *names, temperatures_C=[5, 20])
     tests = [(temperature, frequency) for temperature in (5, 20) for frequency in (3, 10)]
     fitted = {"temperatures_C": [5, 20], "measurements": measure(*tests)}
     fitted["laws"] = yaml.safe_load((ROOT / "config/smoke.yaml").read_text())["laws"] | {"simulate": "fitted"}
     check(**fitted)
-    with pytest.raises(InputError, match="my.yaml: audit.temperature_C: 5 is not in data/paper/table3"):
-        check(**fitted, audit={"seed": 1, "temperature_C": 5})
+    audit = {"seed": 1, "temperature_C": 5}
+    refused(check, "audit.temperature_C: 5", "data/paper/table3", **fitted, audit=audit)
 
 
 def test_published_tables_that_cannot_be_read(check):
     published = yaml.safe_load((ROOT / "config/smoke.yaml").read_text())["published"]
+    Path("t.csv").write_text("a,b\n1,2\n")
     for key in published:
-        Path("t.csv").write_text("a,b\n1,2\n")
-        with pytest.raises(InputError, match="t.csv: column '.*' is missing"):
-            check(published=published | {key: "t.csv"})
+        refused(check, "column '", file="t.csv", published=published | {key: "t.csv"})
 
 
 @pytest.mark.parametrize(
-    ("text", "sentence"),
+    ("text", "names"),
     [
-        ("x,y,z,radius\n1,2,3,-1\n", "pile.csv: sphere 1 has a radius of zero or less"),
-        ("x_mm,y_mm,z_mm,radius_mm\n1,1,1,1\n2,1,1,1\n", "pile.csv: spheres 1 and 2 overlap by 100 %"),
-        ("x_mm,y_mm,z_mm,radius_mm\n1,1,1,1\n4,1,1,1\n", "pile.csv: .*box"),
-        ("nothing\n", "pile.csv: "),
+        ("x,y,z,radius\n1,2,3,-1\n", ["sphere 1", "radius"]),
+        ("x_mm,y_mm,z_mm,radius_mm\n1,1,1,1\n2,1,1,1\n", ["spheres 1 and 2", "100 %"]),
+        ("x_mm,y_mm,z_mm,radius_mm\n1,1,1,1\n4,1,1,1\n", ["box"]),
+        ("nothing\n", []),
     ],
 )
-def test_packings_that_cannot_be_used(check, text, sentence):
+def test_packings_that_cannot_be_used(check, text, names):
     Path("pile.csv").write_text(text)
-    left_out = dict.fromkeys(("sensitivity", "time_step_study", "packing_study", "audit", "published"))
-    with pytest.raises(InputError, match=f"my.yaml: specimens.packings: .*{sentence}") as refused:
-        check(specimens={"packings": ["pile.csv"]}, **left_out)
-    assert "\n" not in str(refused.value)
+    changes = ALONE | {"published": None, "specimens": {"packings": ["pile.csv"]}}
+    refused(check, "specimens.packings: ", "pile.csv: ", *names, **changes)
 
 
 def test_a_study_is_checked_without_the_compiled_core():
