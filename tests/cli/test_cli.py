@@ -26,7 +26,6 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save, write_table
 from asphalt_nscd.reporting.figures.save import save_figure
 
-
 WHOLE = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.2"
 INSIDE = {**os.environ, cli.WITHIN_WORKFLOW: "1"}
 

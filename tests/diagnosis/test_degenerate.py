@@ -134,21 +134,16 @@ def test_an_outlier_without_replicates_is_not_named(full):
     assert diagnosed(table)[1] == set()
 
 
-WRONG = {
-    "NaN": (lambda t: t.assign(E_MPa=t["E_MPa"].where(t.index != 3)), r"line 5: E_MPa is empty"),
-    "radians": (
-        lambda t: t.assign(phase_deg=np.radians(t["phase_deg"])),
-        r"is it in radians\? Multiply by 180/pi",
-    ),
-    "GPa": (lambda t: t.assign(E_MPa=t["E_MPa"] / 1000.0), "E_MPa looks like GPa, multiply by 1000"),
-    "Pa": (lambda t: t.assign(E_MPa=t["E_MPa"] * 1e6), r"give \|E\*\| in MPa, greater than zero"),
-    "repeated rows": (lambda t: pd.concat([t, t]), "line 122: repeats the test of line 2"),
-    "three tests": (lambda t: t.head(3), "are too few for a diagnosis; measure at least 4"),
-    "one frequency": (
-        lambda t: t[t["frequency_Hz"] == 10.0],
-        "are too few for a diagnosis; measure at least 4",
-    ),
-    "the same everywhere": (lambda t: t.assign(E_MPa=1e4, phase_deg=10.0), "copies are not replicates"),
+def copied(table):
+    first = table[table["specimen"] == "A"]
+    return pd.concat([first, first.assign(specimen="E"), table[table["specimen"] == "B"]])
+
+
+WRONG = {  # wrong cells are refused where the table is read: tests/measurements/test_reduction.py
+    "copies": (copied, "A and E .* 30 conditions"),
+    "three tests": (lambda t: t.head(3), "at least 4"),
+    "one frequency": (lambda t: t[t["frequency_Hz"] == 10.0], "at least 4"),
+    "the same everywhere": (lambda t: t.assign(E_MPa=1e4, phase_deg=10.0), "copies"),
 }
 
 

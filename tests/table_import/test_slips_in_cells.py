@@ -95,6 +95,7 @@ def test_what_is_no_test_is_left_out_and_said(tmp_path):
         (every(3, "27'470"), "t.csv", ["27'470"]),
         (every(3, "27 470"), "t.csv", ["27 470"]),
         (every(3, '"27,470"'), "t.csv", ["'27,470'"]),
+        (changed((2, 3, "9,100")), "t.xlsx", ["line 4", "'9,100'"]),  # text in a workbook
         ([["Project", "A 13"], HEADER], "t.csv", ["no line below the names"]),
         # A number beyond all, of damaged tables.
         (
