@@ -41,10 +41,24 @@ def columns(header, *rows, **chosen):
         ("Frequenz in Hz", "frequency_Hz", 1), ("Dynamic modulus E' (MPa)", None, None),
         ("Phase angle E* (°)", None, None), ("Operator", None, None),
         ("E' (MPa)", "E1_MPa", 1), ("E'' (MPa)", "E2_MPa", 1), ("|G*| (MPa)", None, None), ("e (mm)", None, None),
-        ("t (s)", None, None), ("Load cycles", "cycles", 1),
+        ("t (s)", None, None), ("Load cycles", "cycles", 1), ("Norme du module complexe (MPa)", "E_MPa", 1),
+        ("Komplexer E-Modul [N/mm²]", "E_MPa", 1), ("DYNAMIC MODULUS, PSI", "E_MPa", 6.894757293e-3),
+        ("Dyn. Modulus (Mpa)", "E_MPa", 1), ("|E*| MN/m²", "E_MPa", 1), ("E* (kgf/cm²)", "E_MPa", 0.0980665),
+        ("Módulo dinámico (MPa)", "E_MPa", 1), ("FREQUENCY, HZ", "frequency_Hz", 1),
+        ("Fréquence de sollicitation (Hz)", "frequency_Hz", 1), ("fréq. (Hz)", "frequency_Hz", 1),
+        ("Frequency (f) [Hz]", "frequency_Hz", 1), ("Kreisfrequenz (rad/s)", "frequency_Hz", 0.5 / math.pi),
+        ("Phasenverschiebung (Grad)", "phase_deg", 1), ("Angle de phase φ (degrés)", "phase_deg", 1),
+        ("Phase Lag (deg.)", "phase_deg", 1), ("Phase angle, degrees", "phase_deg", 1),
+        ("Température d'essai (°C)", "temperature_C", 1), ("Temperature (deg. C)", "temperature_C", 1),
+        ("TEMPERATURE (DEG F)", "temperature_C", -155 / 9), ("Temperature (degrees Celsius)", "temperature_C", 1),
+        ("Pruefkoerper-Nr.", "specimen", 1), ("N° éprouvette", "specimen", 1), ("Sample #", "specimen", 1),
+        ("tan delta", "tan_delta", 1), ("tan(φ) [-]", "tan_delta", 1), ("Storage modulus (MPa)", "E1_MPa", 1),
+        ("Loss modulus E'' (MPa)", "E2_MPa", 1), ("E1 (MPa)", "E1_MPa", 1), ("E_2 [GPa]", "E2_MPa", 1e3),
+        ("E″ (MPa)", "E2_MPa", 1), ("T° (°C)", "temperature_C", 1), ("Storage modulus E'' (MPa)", None, None),
+        ("Resilient modulus (MPa)", None, None), ("Sample diameter (mm)", None, None),
     ],
 )  # fmt: skip
-def test_names_and_units(name, quantity, one):
+def test_names_and_units_are_taken_liberally_and_meant_strictly(name, quantity, one):
     column = recognise(name)
     assert (column and column.quantity) == quantity
     if column:

@@ -5,8 +5,6 @@ from __future__ import annotations
 import pytest
 from table_import.slips import HEADER, ROWS, as_is, read, refused, said
 
-from asphalt_nscd.table_import.quantities import recognise
-
 
 def headed(at, name, rows=ROWS):
     return [[*HEADER[:at], name, *HEADER[at + 1 :]], *rows]
@@ -57,31 +55,6 @@ def test_a_unit_that_is_confirmed_or_stands_elsewhere(tmp_path, rows, chosen):
 
 def test_a_unit_that_is_chosen_and_stands_below(tmp_path):
     assert read(tmp_path, BELOW, E_ksi="Wert").table.columns["E_MPa"][0] == "67568.62147"
-
-
-@pytest.mark.parametrize(
-    ("name", "quantity", "unit"),
-    [
-        ("|E*| (MPa)", "E_MPa", "MPa"), ("Norme du module complexe (MPa)", "E_MPa", "MPa"),
-        ("Komplexer E-Modul [N/mm²]", "E_MPa", "N/mm2"), ("DYNAMIC MODULUS, PSI", "E_MPa", "psi"),
-        ("Dyn. Modulus (Mpa)", "E_MPa", "MPa"), ("|E*| MN/m²", "E_MPa", "MN/m2"), ("E* (kgf/cm²)", "E_MPa", "kgf/cm2"),
-        ("Módulo dinámico (MPa)", "E_MPa", "MPa"), ("FREQUENCY, HZ", "frequency_Hz", "Hz"),
-        ("Fréquence de sollicitation (Hz)", "frequency_Hz", "Hz"), ("fréq. (Hz)", "frequency_Hz", "Hz"),
-        ("Frequency (f) [Hz]", "frequency_Hz", "Hz"), ("Kreisfrequenz (rad/s)", "frequency_Hz", "rad/s"),
-        ("Phasenverschiebung (Grad)", "phase_deg", "deg"), ("Angle de phase φ (degrés)", "phase_deg", "deg"),
-        ("Phase Lag (deg.)", "phase_deg", "deg"), ("Phase angle, degrees", "phase_deg", "deg"),
-        ("Température d'essai (°C)", "temperature_C", "C"), ("Temperature (deg. C)", "temperature_C", "C"),
-        ("TEMPERATURE (DEG F)", "temperature_C", "F"), ("Temperature (degrees Celsius)", "temperature_C", "C"),
-        ("Pruefkoerper-Nr.", "specimen", ""), ("N° éprouvette", "specimen", ""), ("Sample #", "specimen", ""),
-        ("tan delta", "tan_delta", ""), ("tan(φ) [-]", "tan_delta", "-"), ("Storage modulus (MPa)", "E1_MPa", "MPa"),
-        ("Loss modulus E'' (MPa)", "E2_MPa", "MPa"), ("E1 (MPa)", "E1_MPa", "MPa"), ("E_2 [GPa]", "E2_MPa", "GPa"),
-        ("E″ (MPa)", "E2_MPa", "MPa"), ("T° (°C)", "temperature_C", "C"), ("Storage modulus E'' (MPa)", None, None),
-        ("Resilient modulus (MPa)", None, None), ("Sample diameter (mm)", None, None),
-    ],
-)  # fmt: skip
-def test_labels_are_taken_liberally_and_meant_strictly(name, quantity, unit):
-    column = recognise(name)
-    assert (column and column.quantity, column and column.unit) == (quantity, unit)
 
 
 def test_a_unit_that_is_not_said_is_taken_only_if_the_numbers_leave_one(tmp_path):
