@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -100,63 +98,53 @@ def test_overlaps_are_measured(tmp_path):
     (tmp_path / "pair.csv").write_text("x_mm,y_mm,z_mm,radius_mm\n" + lines(pair, ","))
     packing = an.read_packing(tmp_path / "pair.csv")
     assert packing.attributes["largest_overlap_m"] == pytest.approx(0.2e-3)
-    assert "spheres 2 and 1 by 4.0 %" in " ".join(packing.notes) or "spheres 1 and 2 by 4.0 %" in " ".join(
-        packing.notes
-    )
-
-
-@pytest.mark.parametrize(
-    ("text", "sentence"),
-    [
-        ("", "the file is empty"),
-        ("x,y,z,radius\n", "a header without spheres"),
-        ("x,y,z\n1,2,3\n", "no column for radius"),
-        ("x,y,z,radius\n1,2,3,oops\n", "sphere 1: radius = 'oops' is not a number"),
-        ("x,y,z,radius\n1,2,3,-4\n", "sphere 1 has a radius of zero or less"),
-        ("x,y,z,radius\n1,2,3,inf\n", "sphere 1 is not finite"),
-        ("x,y,z,radius\n1,2,3,400\n", "neither in m nor in mm; state the unit with --unit"),
-        ("x_mm,y_mm,z_mm,radius_m\n1,2,3,0.004\n", "have different units"),
-        ("x_m,y_m,z_m,radius_m\n1,2,3,0.051\n", "not those of aggregate"),
-        ("1 2 3\n", "3 columns without a header"),
-        ('{"law": "burgers"}', "no table of spheres, but JSON or XML"),
-        ("x,y,z,radius\n0,0,0,4\n0,0,4,4\n", "overlap by 100 % of the smaller radius"),
-        (dump(TABLE, atoms=500), "holds 120 of 500 atoms; was the run interrupted"),
-        ("ITEM: TIMESTEP\n0\n", "without ITEM: ATOMS"),
-        ("ITEM: TIMESTEP\n0\nITEM: ATOMS id xs ys zs radius\n1 0 0 0 1\n", "scaled coordinates"),
-        ("x;y;z;radius\n1,5;2,5;3,5;4,5\n", "decimals are written with a comma"),
-    ],
-)
-def test_what_is_no_packing_is_refused_in_a_sentence(tmp_path, text, sentence):
-    (tmp_path / "bad.csv").write_text(text)
-    with pytest.raises(an.InputError, match=sentence) as refused:
-        an.read_packing(tmp_path / "bad.csv")
-    assert str(tmp_path / "bad.csv") in str(refused.value)
+    assert any("by 4.0 %" in note for note in packing.notes)
 
 
 MM = 1e3 * TABLE
+HEADED = "x,y,z,radius\n"
+FAR = np.column_stack([np.round(MM[:, :3] + 5e6, -1), MM[:, 3]])
 
 
 @pytest.mark.parametrize(
-    ("numbers", "sentence"),
+    ("text", "names"),
     [
-        (MM[:1], "holds one sphere alone; give the whole packing"),
-        (0.1 * MM, "radii from 0.2.* are those of sand in mm and of gravel in cm; state the unit with --unit"),
-        (np.vstack([MM, [0, 0, 2000, 2.5]]), "an empty gap of 19.* mm along the height parts .* from the others"),
-        (MM * [4, 1, 1, 1], "an empty gap of .* mm along the length parts .* from the others"),
-        (MM + [1e16, 0, 0, 0], "positions up to 1e.13 m leave no digits for radii of 0.002"),
-        (np.column_stack([np.round(MM[:, :3] + 5e6, -1), MM[:, 3]]), "so far from the origin may have been rounded"),
+        ("", "empty"),
+        (HEADED, "without spheres"),
+        ("x,y,z\n1,2,3\n", "radius"),
+        (f"{HEADED}1,2,3,oops\n", "sphere 1: radius = 'oops'"),
+        (f"{HEADED}1,2,3,-4\n", "sphere 1 has a radius of zero or less"),
+        (f"{HEADED}1,2,3,inf\n", "sphere 1 is not finite"),
+        (f"{HEADED}1,2,3,400\n", "--unit"),
+        ("x_mm,y_mm,z_mm,radius_m\n1,2,3,0.004\n", "different units"),
+        ("x_m,y_m,z_m,radius_m\n1,2,3,0.051\n", "not those of aggregate"),
+        ("1 2 3\n", "3 columns without a header"),
+        ('{"law": "burgers"}', "JSON"),
+        (f"{HEADED}0,0,0,4\n0,0,4,4\n", "100 %"),
+        (dump(TABLE, atoms=500), "120 of 500"),
+        ("ITEM: TIMESTEP\n0\n", "ITEM: ATOMS"),
+        ("ITEM: TIMESTEP\n0\nITEM: ATOMS id xs ys zs radius\n1 0 0 0 1\n", "scaled coordinates"),
+        ("x;y;z;radius\n1,5;2,5;3,5;4,5\n", "comma"),
+        (HEADED + lines(MM[:1], ","), "one sphere alone"),
+        (HEADED + lines(0.1 * MM, ","), "radii from 0.2.*--unit"),
+        (HEADED + lines(np.vstack([MM, [0, 0, 2000, 2.5]]), ","), "gap of 19.* mm along the height"),
+        (HEADED + lines(MM * [4, 1, 1, 1], ","), "gap of .* mm along the length"),
+        (HEADED + lines(MM + [1e16, 0, 0, 0], ","), "1e.13 m leave no digits for radii of 0.002"),
+        (HEADED + lines(FAR, ","), "rounded"),
+        (b"\x89HDF\r\n\x1a\n" + bytes(64), "asphalt-nscd trim"),
     ],
-)  # fmt: skip
-def test_packings_that_are_not_what_they_seem(tmp_path, numbers, sentence):
-    (tmp_path / "odd.csv").write_text("x,y,z,radius\n" + lines(numbers, ","))
-    with pytest.raises(an.InputError, match=sentence):
-        an.read_packing(tmp_path / "odd.csv")
+)
+def test_what_is_no_packing_is_refused_with_its_file_and_place(tmp_path, text, names):
+    (tmp_path / "bad.csv").write_bytes(text.encode() if isinstance(text, str) else text)
+    with pytest.raises(an.InputError, match=names) as refused:
+        an.read_packing(tmp_path / "bad.csv")
+    assert str(tmp_path / "bad.csv") in str(refused.value)
 
 
 def test_a_packing_far_from_the_origin_is_moved_and_that_is_said(tmp_path):
     (tmp_path / "far.csv").write_text("x,y,z,radius\n" + lines(TABLE + [5000, -200, 0, 0], ","))
     packing = an.read_packing(tmp_path / "far.csv")
-    assert "far from the origin; it was moved there: x -5000 m, y +200 m" in " ".join(packing.notes)
+    assert "x -5000 m, y +200 m" in " ".join(packing.notes)
     assert np.allclose(packing.position_m, POSITION - (POSITION - RADIUS[:, None]).min(axis=0), atol=2e-8)
     (tmp_path / "near.csv").write_text("x,y,z,radius\n" + lines(TABLE, ","))
     assert "moved" not in " ".join(an.read_packing(tmp_path / "near.csv").notes)
@@ -166,7 +154,7 @@ def test_a_stated_unit_decides(tmp_path):
     (tmp_path / "cm.csv").write_text("x,y,z,radius\n1,2,3,0.4\n1,2,4,0.4\n")
     assert an.read_packing(tmp_path / "cm.csv", unit="cm").radius_m.tolist() == [0.004, 0.004]
     (tmp_path / "mm.csv").write_text("x_mm,y_mm,z_mm,radius_mm\n1,2,3,4\n")
-    with pytest.raises(an.InputError, match="its columns are in mm; leave out --unit m"):
+    with pytest.raises(an.InputError, match="--unit m"):
         an.read_packing(tmp_path / "mm.csv", unit="m")
 
 
@@ -175,18 +163,16 @@ def test_the_public_rules_go_on_from_an_imported_packing(tmp_path):
     run = CliRunner()
     (tmp_path / "pile.csv").write_text(FORMS["mm.csv"])
     deposit, beam = tmp_path / "deposit.h5", tmp_path / "beam.h5"
-    wrong = run.invoke(cli.group, ["import-packing", str(tmp_path / "pile.csv"), "--output", "q.csv"])
-    assert wrong.exit_code == 2 and "let its name end in .h5" in wrong.output
-    said = run.invoke(cli.group, ["import-packing", str(tmp_path / "pile.csv"), "--output", str(deposit)])
-    assert said.exit_code == 0 and "lengths in mm, as the file says" in said.output
+    wrong, said = (
+        run.invoke(cli.group, ["import-packing", str(tmp_path / "pile.csv"), "--output", str(output)])
+        for output in ("q.csv", deposit)
+    )
+    assert (wrong.exit_code, said.exit_code) == (2, 0) and ".h5" in wrong.output
     h_mm = float(said.output.partition("h_mm=")[2].partition(",")[0])  # from wall to wall, as it says
     assert -0.01 <= h_mm - 1e3 * an.read(deposit).box_m[0] <= 0.0
     shape = f"b_mm=20,B_mm=24,e_mm=22,h_mm={h_mm},mass_kg=0.03,mobile_mass_kg=0.01"
-    done = run.invoke(
-        cli.group,
-        ["trim", str(deposit), "--geometry", shape, "--area", "facets", "--output", str(beam)],
-        standalone_mode=False,
-    )
+    trim = ["trim", str(deposit), "--geometry", shape, "--area", "facets", "--output", str(beam)]
+    done = run.invoke(cli.group, trim, standalone_mode=False)
     assert done.exception is None, done.exception
     specimen = an.read(beam)
     assert specimen.attributes["source"] == "pile.csv" and "seed" not in specimen.attributes
@@ -197,16 +183,9 @@ def test_the_public_rules_go_on_from_an_imported_packing(tmp_path):
     )
 
 
-def test_a_deposit_that_is_a_table_says_which_command_reads_it(tmp_path):
+def test_what_is_given_to_the_wrong_command_names_the_right_one(tmp_path):
     (tmp_path / "pile.csv").write_text(FORMS["mm.csv"])
-    with pytest.raises(an.InputError, match="a folder; give the file that holds the spheres"):
+    with pytest.raises(an.InputError, match="a folder"):
         an.read_packing(tmp_path)
     with pytest.raises(an.InputError, match="import-packing"):
         an.specimen(tmp_path / "pile.csv")
-    assert Path(tmp_path / "pile.csv").is_file()
-
-
-def test_a_deposit_of_this_program_is_told_where_to_go(tmp_path):
-    (tmp_path / "deposit.h5").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(64))
-    with pytest.raises(an.InputError, match="give a deposit of this program to `asphalt-nscd trim` itself"):
-        an.read_packing(tmp_path / "deposit.h5")
