@@ -71,30 +71,22 @@ def imported(file: Path, package: str = "asphalt_nscd") -> set[str]:
     return found
 
 
-def test_every_folder_has_its_arrows():
-    assert folders() == sorted(ARROWS)
+DIAGNOSIS = "asphalt_nscd.diagnosis"
+CASES = [(PACKAGE, "asphalt_nscd", ARROWS, folder) for folder in ARROWS]
+CASES += [(PACKAGE / "diagnosis", DIAGNOSIS, ROOMS, room) for room in ROOMS]
 
 
-@pytest.mark.parametrize("folder", ARROWS)
-def test_arrows_run_one_way(folder):
-    earlier = list(ARROWS)[: list(ARROWS).index(folder)]
-    assert set(ARROWS[folder]) <= set(earlier), f"{folder} may only import from folders listed before it"
-    for file in sorted((PACKAGE / folder).rglob("*.py")):
-        beyond = imported(file) & set(folders()) - {folder, *ARROWS[folder]}
-        assert not beyond, f"{file.relative_to(PACKAGE)} imports from {', '.join(sorted(beyond))}"
+def test_every_folder_and_every_room_of_the_diagnosis_has_its_arrows():
+    assert folders() == sorted(ARROWS) and folders(PACKAGE / "diagnosis") == sorted(ROOMS)
 
 
-def test_every_room_of_the_diagnosis_has_its_arrows():
-    assert folders(PACKAGE / "diagnosis") == sorted(ROOMS)
-
-
-@pytest.mark.parametrize("room", ROOMS)
-def test_arrows_within_the_diagnosis_run_one_way(room):
-    earlier = list(ROOMS)[: list(ROOMS).index(room)]
-    assert set(ROOMS[room]) <= set(earlier), f"{room} may only import from rooms listed before it"
-    for file in sorted((PACKAGE / "diagnosis" / room).glob("*.py")):
-        found = imported(file, "asphalt_nscd.diagnosis")
-        beyond = found - {room, "criteria", "settings", "written", *ROOMS[room]}
+@pytest.mark.parametrize(("inside", "package", "arrows", "folder"), CASES, ids=[case[-1] for case in CASES])
+def test_arrows_run_one_way(inside, package, arrows, folder):
+    earlier = list(arrows)[: list(arrows).index(folder)]
+    assert set(arrows[folder]) <= set(earlier), f"{folder} may only import from what is listed before it"
+    known = {*folders(inside), "run"} - {folder, *arrows[folder]}
+    for file in sorted((inside / folder).rglob("*.py")):
+        beyond = imported(file, package) & known
         assert not beyond, f"{file.relative_to(PACKAGE)} imports from {', '.join(sorted(beyond))}"
 
 
