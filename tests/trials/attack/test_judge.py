@@ -63,10 +63,8 @@ def test_a_group_that_cannot_be_told_apart_names_its_members():
 
 
 def suspects(*tests, used=False):
-    return [
-        {"specimen": s, "temperature_C": t, "frequency_Hz": f, "used": used, "reasons": []}
-        for s, t, f in tests
-    ]
+    names = ("specimen", "temperature_C", "frequency_Hz")
+    return [dict(zip(names, test)) | {"used": used, "reasons": []} for test in tests]
 
 
 def test_left_out_means_all_that_is_bad_and_nothing_that_is_good():
@@ -154,9 +152,8 @@ def test_names_that_a_measured_table_had_before_are_not_added():
 
 def test_a_measured_table_is_itself_until_something_is_put_in(tmp_path):
     table = put(CAMPAIGN, ())
-    table.rename(columns={"temperature_C": "T_C", "specimen": "replicate"}).to_csv(
-        tmp_path / "t.csv", index=False
-    )
+    renamed = table.rename(columns={"temperature_C": "T_C", "specimen": "replicate"})
+    renamed.to_csv(tmp_path / "t.csv", index=False)
     read = measured.campaign(tmp_path / "t.csv", "t")
     again = put(read, ())
     np.testing.assert_allclose(again["E_MPa"], table["E_MPa"], rtol=1e-9)

@@ -48,16 +48,8 @@ def test_a_seed_repeats_its_table_and_no_other_does():
 @pytest.mark.parametrize("name", wild.FAULTS)
 def test_every_fault_takes_a_table_of_one_test(name):
     rng = np.random.default_rng(2)
-    one = pd.DataFrame(
-        {
-            "specimen": ["A"],
-            "temperature_C": [10.0],
-            "frequency_Hz": [1.0],
-            "E_MPa": [9e3],
-            "phase_deg": [20.0],
-        }
-    )
-    table = wild.FAULTS[name](one, rng)
+    names = ["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
+    table = wild.FAULTS[name](pd.DataFrame([("A", 10.0, 1.0, 9e3, 20.0)], columns=names), rng)
     assert len(table) >= 1 and np.isfinite(table[["E_MPa", "phase_deg"]].to_numpy()).all()
 
 
@@ -67,18 +59,20 @@ def test_a_few_are_diagnosed_or_refused_in_one_sentence(seed):
     assert outcome.ended in ("diagnosed", "refused"), outcome
 
 
-def ended_by(monkeypatch, error: BaseException):
+@pytest.mark.parametrize(
+    ("error", "ended"),
+    [
+        (np.linalg.LinAlgError("not positive"), "traceback"),
+        (AssertionError("no summary"), "traceback"),
+        (diagnoses.InputError("give another file."), "refused"),
+    ],
+)
+def test_what_is_no_refusal_is_a_traceback(monkeypatch, error, ended):
     def conclude(*_):
         raise error
 
     monkeypatch.setattr(diagnoses, "conclude", conclude)
-    return diagnoses.tried(0)
-
-
-def test_what_is_no_refusal_is_a_traceback(monkeypatch):
-    assert ended_by(monkeypatch, np.linalg.LinAlgError("not positive")).ended == "traceback"
-    assert ended_by(monkeypatch, AssertionError("no summary")).ended == "traceback"
-    assert ended_by(monkeypatch, diagnoses.InputError("give another file.")).ended == "refused"
+    assert diagnoses.tried(0).ended == ended
 
 
 def test_a_diagnosis_with_infinity_in_its_file_is_none(monkeypatch):
@@ -94,11 +88,10 @@ def test_a_diagnosis_with_infinity_in_its_file_is_none(monkeypatch):
 
 def test_rates_count_the_ends_and_time_the_diagnosed():
     ends = ["diagnosed"] * 6 + ["refused"] * 3 + ["traceback"]
+    sizes, warned = [50] * 3 + [200] * 7, ["", "joint.py:3"] + [""] * 8
     outcomes = [
-        diagnoses.Outcome(
-            n, "", 50 if n < 3 else 200, end, cpu_s=float(n), warned="joint.py:3" if n == 1 else ""
-        )
-        for n, end in enumerate(ends)
+        diagnoses.Outcome(n, "", size, end, cpu_s=float(n), warned=said)
+        for n, (size, end, said) in enumerate(zip(sizes, ends, warned))
     ]
     table = diagnoses.rates(outcomes).set_index("what")
     assert table.loc["traceback", "hits"] == 1 and table.loc["traceback", "rate"] == pytest.approx(0.1)

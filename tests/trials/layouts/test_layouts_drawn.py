@@ -22,7 +22,6 @@ def test_a_wrong_reading_is_seen(tmp_path):
     for other in ((1.05 * modulus, phase), (modulus, phase + 0.3)):
         assert outcome(path, replace(tests, values=tests.values | {key: other}))[0] == "wrong"
     a, b, *_ = tests.specimens
-    swapped = {
-        ({a: b, b: a}.get(s, s) if t == key[1] else s, t, f): both for (s, t, f), both in tests.values.items()
-    }
+    other = {a: b, b: a}
+    swapped = {(other.get(s, s) if t == key[1] else s, t, f): v for (s, t, f), v in tests.values.items()}
     assert outcome(path, replace(tests, values=swapped))[0] == "wrong"
