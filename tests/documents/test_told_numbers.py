@@ -12,8 +12,6 @@ from asphalt_nscd.rheology.reconstruct import Sampling
 
 ROOT = Path(__file__).parents[2]
 
-LAWS = {"burgers": "% of |E\\*| ", "one_law": ""}
-
 
 def published(table: str) -> pd.DataFrame:
     return pd.read_csv(ROOT / f"results/published/{table}.csv")
@@ -205,8 +203,29 @@ def test_what_the_attack_finds():
 
 def test_laws_of_measured_mixes():
     table = published("measured/means").set_index("rung").round(1)
-    told = [f"{table.E_percent[rung]} {unit}and {table.phase_percent[rung]} %" for rung, unit in LAWS.items()]
-    assert f"by {told[0]} of the phase; one law for all temperatures by {told[1]}" in readme()
+    burgers, one_law, as_run = (
+        (f"{row.E_percent} %", f"{row.phase_percent} %")
+        if rung == "burgers"
+        else (row.E_percent, row.phase_percent)
+        for rung, row in table.loc[["burgers", "one_law", "as_run"]].iterrows()
+    )
+    assert (
+        f"by {burgers[0]} of |E\\*| and {burgers[1]} of the phase; one law for all temperatures by"
+        in readme()
+    )
+    assert f"temperatures by {one_law[0]} and {one_law[1]} %" in readme()
+    assert f"read a haversine, by {as_run[0]} and {as_run[1]} % without a further parameter" in readme()
+    assert (
+        table.loc["as_run", ["E_percent", "phase_percent"]]
+        < table.loc["phase_offset", ["E_percent", "phase_percent"]]
+    ).all()
+
+
+def test_where_the_reading_of_a_haversine_leaves_less_than_a_constant():
+    table = published("measured/budget").set_index(["population", "temperature_C"])
+    better = table.index[table.rms_less_reading_deg < table.rms_less_mean_deg].tolist()
+    assert better == [("ncat", 4.0), ("ncat", 20.0)]
+    assert "leaves less of it than a constant fitted to each temperature" in page("measured")
 
 
 def test_verdicts_on_the_paper():
