@@ -47,7 +47,7 @@ def reduced(model, law: BondLaw) -> dict[str, object]:
 
 def stepped(model, law: BondLaw, method: str) -> dict[str, object]:
     """Steps of the full system, scaled to the cycle; the first, which factorises or compiles, on top."""
-    clock, state = Clock(), CondensedState.at_rest(model.system, law)
+    clock, state = Clock(), CondensedState.rest_state(model.system, law)
     if method == "condensed":
         stepper = CondensedStepper(model.system, law, TIME_STEP, state)
     else:

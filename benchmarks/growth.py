@@ -120,7 +120,7 @@ def condensed_steps(model_file: str, law_file: str) -> list[Row]:
     """Steps of the full system, and what comes before the first."""
     model, law = read_model(model_file), bond_law(read_bond_law(law_file))
     clock = Clock()
-    stepper = CondensedStepper(model.system, law, TIME_STEP, CondensedState.at_rest(model.system, law))
+    stepper = CondensedStepper(model.system, law, TIME_STEP, CondensedState.rest_state(model.system, law))
     factors, clock = clock.row(), Clock()
     for _ in range(MEASURED):
         stepper.advance(2.0 * np.pi * FREQUENCY * SLOPE * model.geometry.h)

@@ -29,7 +29,7 @@ HERE = Path(__file__).parent
 def pour(position: np.ndarray, radius: np.ndarray) -> tuple[dict[str, object], np.ndarray]:
     """(row, positions at rest) by NSCD."""
     clock, numerics = Clock(), PouringNumerics.of(radius, 4e-4)
-    bed = GranularBed.in_box(position, radius, BOX, DENSITY, FRICTION)
+    bed = GranularBed.spheres_in_box(position, radius, BOX, DENSITY, FRICTION)
     bed.let_fall()
     while bed.time < DURATION:
         bed.advance(numerics)

@@ -14,7 +14,7 @@ from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, read_json, write_table
 from asphalt_nscd.measurements.agreement import mean_relative_error
-from asphalt_nscd.measurements.tables import at_temperature, read_measured
+from asphalt_nscd.measurements.tables import isotherm_rows, read_measured
 from asphalt_nscd.reporting.tables.table4 import read_errors
 from asphalt_nscd.reporting.tables.time_steps import EXPLICIT
 from asphalt_nscd.rheology.laws_io import read_law
@@ -84,7 +84,7 @@ def findings(paths: Mapping[str, Any]) -> Iterable[Finding]:
         outcomes.profile(load(paths["profile"], "test").arrays),
         outcomes.laws_and_samples(tests, table["packing"], readings, facets, list(blocked.values())),
         outcomes.agreement(table["table4"], _refit_errors(paths["fitted"], paths["measured"])),
-        outcomes.sensitivity(changed, at_temperature(tests, float(changed["temperature_C"].iloc[0]))),
+        outcomes.sensitivity(changed, isotherm_rows(tests, float(changed["temperature_C"].iloc[0]))),
     )
 
 
@@ -108,7 +108,7 @@ def _refit_errors(fitted: Iterable[str], measured: Iterable[str]) -> pd.DataFram
     data = read_measured(list(map(Path, measured)))
     frames = []
     for path in fitted:
-        points = at_temperature(data, read_json(path)["temperature_C"])[["temperature_C", "frequency_Hz"]]
+        points = isotherm_rows(data, read_json(path)["temperature_C"])[["temperature_C", "frequency_Hz"]]
         points = points.drop_duplicates()
         modulus = read_law(path).complex_modulus(2.0 * np.pi * points["frequency_Hz"].to_numpy())
         frames.append(points.assign(E_MPa=np.abs(modulus) / 1e6, phase_deg=np.degrees(np.angle(modulus))))

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.tables import at_temperature, read_tests
+from asphalt_nscd.measurements.tables import isotherm_rows, read_tests
 from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.save import save_figure
 
@@ -31,7 +31,7 @@ def draw(readings: list[Path], simulations: list[Path]) -> Figure:
     used = used[used["specimen"].isin(other["specimen"])]
     if used.empty:
         raise InputError("no simulation of the specimen of the readings; simulate it.")
-    cases = {"used": at_temperature(used, other["temperature_C"].iloc[0])}
+    cases = {"used": isotherm_rows(used, other["temperature_C"].iloc[0])}
     cases |= dict(iter(other.groupby("reading")))
     law = "Table 3 in kPa" if set(used["law_source"]) == {"published"} else "fitted law"
     names = {

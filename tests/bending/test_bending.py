@@ -293,7 +293,7 @@ def test_velocity_profile(folder, model, beam):
 
     driven = np.diff(arrays["displacement_m"], prepend=0.0) / DT
     stepper = CondensedStepper(
-        model.system, bond_law(LAW), DT, CondensedState.at_rest(model.system, bond_law(LAW))
+        model.system, bond_law(LAW), DT, CondensedState.rest_state(model.system, bond_law(LAW))
     )
     for n, velocity in enumerate(driven):
         stepper.advance(velocity)

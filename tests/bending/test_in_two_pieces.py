@@ -46,7 +46,7 @@ def test_all_bonds_across_a_section_and_no_fewer_part_it(make_beam, test, share)
 def test_a_test_ends_once_a_fifth_of_the_bonds_broke_though_it_is_whole(make_beam):
     beam = model(make_beam, Beam.test)
     full = runs._full_stepper(
-        beam, QUICK_LAW, 5e-4, CondensedState.at_rest(beam.system, QUICK_LAW), HeadDevices()
+        beam, QUICK_LAW, 5e-4, CondensedState.rest_state(beam.system, QUICK_LAW), HeadDevices()
     )
     every_sixth = list(range(0, beam.bonds, 6))
     full.on_break(every_sixth)

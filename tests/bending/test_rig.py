@@ -30,7 +30,7 @@ def test_round_trip(tmp_path):
 def test_what_is_not_given_is_zero(tmp_path):
     (tmp_path / "rig.json").write_text('{"head_mass_kg": 1}')
     assert read_rig(tmp_path / "rig.json") == Rig(head_mass=1.0)
-    assert Rig().of_head == (0.0, 0.0, 0.0, 0.0)
+    assert Rig().head_constants == (0.0, 0.0, 0.0, 0.0)
 
 
 def test_the_channel_records_the_displacement_late_and_behind_in_phase():

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.diagnosis.simulation.bond_mapping import bond_mapping, over_law, simulated, void
+from asphalt_nscd.diagnosis.simulation.bond_mapping import bond_mapping, ratio_to_law, simulated, void
 
 
 @pytest.fixture
@@ -56,7 +56,7 @@ def test_tests_that_break_bonds_do_not_count(campaign):
     table = pd.read_csv(path)
     table.loc[0, ["E_MPa", "broken_bonds"]] = 1.0, 5
     table.to_csv(path, index=False)
-    assert over_law(path)["s1"] == pytest.approx(1.1)
+    assert ratio_to_law(path)["s1"] == pytest.approx(1.1)
     table.assign(broken_bonds=1).to_csv(path, index=False)
     rung, said = bond_mapping(path, path, {})
     assert rung is None and "not judged" in said

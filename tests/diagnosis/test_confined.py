@@ -133,7 +133,7 @@ def test_a_fault_is_told_with_its_interval_and_what_to_check():
         "specimen 3: displacement recorded 0.200 +- 0.039 ms before the force, 1.8 deg at the highest frequency: check "
         "filters and settings of its channels",
     ]
-    (sweep,) = levels.of_temperatures([TOLD["odd_temperatures"].content(1.0, 25.0)])
+    (sweep,) = levels.temperature_notes([TOLD["odd_temperatures"].content(1.0, 25.0)])
     assert sweep == (
         "at 20 degC specimen 3 seems 2.10 +- 0.61 K colder than stated: check its conditioning and the record"
     )
@@ -149,8 +149,8 @@ def test_what_is_told_beside_the_last_fit_takes_the_place_of_what_the_levels_say
     ]
     phases = [{"specimen": name, "temperature_C": 5.0, "phase_deg": 4.0} for name in ("3", "4")]
     temperatures = [{"specimen": "3", "temperature_C": t, "kelvin": -3.0} for t in (20.0, 30.0)]
-    assert levels.with_confined(phases, temperatures, told) == (
+    assert levels.merge_confined(phases, temperatures, told) == (
         [told[0], phases[1]],
         [told[1], temperatures[1]],
     )
-    assert levels.with_confined(phases, temperatures, []) == (phases, temperatures)
+    assert levels.merge_confined(phases, temperatures, []) == (phases, temperatures)

@@ -63,7 +63,7 @@ def test_of_four_a_half_is_contested_though_none_of_it_is_clearly_on_the_level()
     observed = campaign()
     wrong, middle = rows_of(observed, 10.0, 25.0), rows_of(observed, 40.0)
     observed = altered(altered(observed, wrong, 0.26), middle, 0.11)
-    distance = contested._from_level(observed)
+    distance = contested._level_distance(observed)
     assert 0.38 < distance[middle[0]] / distance[wrong].max() < 0.48
     now, _ = contested.put_right(observed, mask(observed, [wrong[0], *middle]))
     assert np.flatnonzero(now).tolist() == wrong
@@ -74,7 +74,7 @@ def test_of_tests_that_causality_accuses_less_distance_is_asked_than_of_others()
     wrong, right = rows_of(observed, 10.0, 25.0), rows_of(observed, 3.0, 40.0)
     for size, expected in ((0.045, wrong), (0.03, right)):
         near = altered(observed, wrong, size)
-        apart = contested._from_level(near)[wrong].max()
+        apart = contested._level_distance(near)[wrong].max()
         assert 3.0 < apart < contested.FAR and bool(apart > contested.ACCUSED) is (expected is wrong)
         now, _ = contested.put_right(near, mask(near, right))
         assert np.flatnonzero(now).tolist() == expected

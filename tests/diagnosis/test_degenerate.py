@@ -10,7 +10,7 @@ from drawn.design import factorial, scattered
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE as NAMEABLE
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.record.report import as_json
+from asphalt_nscd.diagnosis.record.report import diagnosis_content
 from asphalt_nscd.diagnosis.run import conclude
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.simulation.simulated import read_specimen
@@ -29,7 +29,7 @@ def here(tmp_path, monkeypatch):
 def diagnosed(table):
     table.to_csv("measured.csv", index=False)
     observed, _ = read_observations("measured.csv", PAPER_GEOMETRY)
-    found = as_json(diagnose(replace(observed, test_type="bending")), read_specimen())
+    found = diagnosis_content(diagnose(replace(observed, test_type="bending")), read_specimen())
     return found, {(rung["cause"], rung["where"]) for rung in found["ladder"]} - {
         ("relaxation_spectrum", None)
     }

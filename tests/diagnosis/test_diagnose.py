@@ -8,7 +8,7 @@ import pytest
 
 from asphalt_nscd.diagnosis.observed import scatter
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.record.report import as_json
+from asphalt_nscd.diagnosis.record.report import diagnosis_content
 from asphalt_nscd.diagnosis.screening import suspects
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.simulation.simulated import read_specimen
@@ -77,7 +77,7 @@ def test_a_cause_that_was_named_is_not_said_to_be_untestable():
     named = diagnosis.ladder.rungs[0].candidate
     other = replace(named, place="c")
     unsure = replace(diagnosis, ladder=replace(diagnosis.ladder, unseen=[named, other]))
-    untestable = [row["cause"] for row in as_json(unsure, read_specimen())["not_testable"]]
+    untestable = [row["cause"] for row in diagnosis_content(unsure, read_specimen())["not_testable"]]
     assert "loose_clamp @ c" in untestable and "loose_clamp @ b" not in untestable
 
 

@@ -30,7 +30,7 @@ def diagnosis():
 
 
 def test_errors_of_single_tests_are_relative_to_what_was_measured(diagnosis):
-    found = gain.before_and_after(diagnosis, np.log(SIMULATED), np.log(MEASURED))
+    found = gain.compare_errors(diagnosis, np.log(SIMULATED), np.log(MEASURED))
     off = np.abs(np.abs(SIMULATED) - np.abs(MEASURED)) / np.abs(MEASURED)
     turned = np.abs(np.angle(SIMULATED) - np.angle(MEASURED)) / np.angle(MEASURED)
     assert found["mre_E_percent"]["before"] == pytest.approx(100.0 * off.mean(), rel=1e-9)
@@ -44,13 +44,13 @@ def test_errors_of_single_tests_are_relative_to_what_was_measured(diagnosis):
 
 
 def test_inner_errors_leave_out_the_isotherms_at_the_ends(diagnosis):
-    found = gain.before_and_after(diagnosis, np.log(SIMULATED), np.log(MEASURED), inner=True)
+    found = gain.compare_errors(diagnosis, np.log(SIMULATED), np.log(MEASURED), inner=True)
     assert found["mre_E_percent"]["before"] == pytest.approx(100.0 * (0.2 + 0.1) / 2.0, rel=1e-9)
 
 
 def test_a_phase_below_its_own_scatter_is_nothing_to_divide_by(diagnosis):
     diagnosis.observed.logarithm = np.log(np.abs(MEASURED)) + 0.001j
-    found = gain.before_and_after(diagnosis, np.log(np.abs(MEASURED)) + 0.003j, np.log(MEASURED))
+    found = gain.compare_errors(diagnosis, np.log(np.abs(MEASURED)) + 0.003j, np.log(MEASURED))
     assert found["mre_phase_percent"]["before"] == pytest.approx(100.0 * 0.002 / 0.01, rel=1e-9)
 
 

@@ -32,7 +32,7 @@ def test_each_set_is_left_out_once_and_a_large_table_in_twenty_parts(fit):  # no
     left_out = []
 
     class Counted(Joint):
-        def without(self, rows, fitted):
+        def refit_without(self, rows, fitted):
             left_out.append(rows)
             return fitted
 

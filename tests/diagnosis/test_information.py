@@ -59,7 +59,7 @@ def test_information_of_old_and_new_tests_adds_up_to_that_of_all():
     new = Sweep(np.arange(5, 9), 0.1 * root @ root.T + np.eye(8))
     old = Sweep(np.arange(5), np.eye(10))
     known = Knowledge(linear, [old])
-    at_once = known.after(new).information
+    at_once = known.posterior(new).information
     assert known.information + known.gained([new])[0] == pytest.approx(at_once, rel=1e-9)
     # And by generalised least squares over everything at once.
     h, d = (
@@ -79,7 +79,7 @@ def test_knowledge_grows_test_by_test_as_from_all_at_once():
     nuisance, effects = (rng.standard_normal((12, k)) + 1j * rng.standard_normal((12, k)) for k in (5, 2))
     linear = Linear(nuisance, np.diag(rng.uniform(0.1, 2.0, 5)), effects)
     first, second, third = (Sweep(np.arange(k, k + 4), (1.0 + k) * np.eye(8)) for k in (0, 4, 8))
-    step_by_step = Knowledge(linear, [first]).after(second).after(single(2))
+    step_by_step = Knowledge(linear, [first]).posterior(second).posterior(single(2))
     at_once = Knowledge(linear, [first, second, single(2)])
     assert step_by_step.information == pytest.approx(at_once.information, rel=1e-9)
     wanted = at_once.gained([third, single(9), first])

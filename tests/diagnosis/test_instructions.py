@@ -20,7 +20,7 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.record import instructions
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.words import order_words
-from asphalt_nscd.diagnosis.words.sentences import in_words
+from asphalt_nscd.diagnosis.words.sentences import spell_cause
 
 pytestmark = pytest.mark.slow
 
@@ -290,7 +290,7 @@ def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
 
 def test_what_a_test_would_show_is_said_with_its_chance():
     one = order_words.Open("reach", None, "a phase offset of 1.5 deg")
-    assert order_words._within_reach([(one, 4.0, 47.0)], order_words.Context()) == [
+    assert order_words._reachable_causes([(one, 4.0, 47.0)], order_words.Context()) == [
         "If there is a phase offset of 1.5 deg, this test finds it with a chance of 100 %; without it the chance is "
         "4 %."
     ]
@@ -302,7 +302,7 @@ def test_places_of_one_cause_are_told_together():
         for t in (4.0, 20.0, 50.0, 35.0)
     )
     helped = [(warm, 0.0, 47.0), (cold, 0.0, 25.0), (hot, 9.0, 47.0), (nothing, 9.0, 9.1)]
-    assert order_words._within_reach(helped, order_words.Context(later=True)) == [
+    assert order_words._reachable_causes(helped, order_words.Context(later=True)) == [
         "If there is a temperature bias of 0.9 K at 4, 20 or 50 degC, this test finds it with a chance of 90 to "
         "100 %; with only the steps above the chance is 0 to 24 %, depending on the temperature."
     ]
@@ -344,9 +344,9 @@ def test_temperatures_that_certainty_lacks_lie_beyond_those_tested(tested, new):
     whole = table(4)
     part = whole.subset(np.isin(whole.isotherm, whole.isotherms[: len(tested)]))
     at = np.array(sorted(tested), float)[np.unique(part.isotherm, return_inverse=True)[1]]
-    (order,) = fixed_orders.more_temperatures(replace(part, temperature=at, nominal_temperature=at), Costs())
+    (order,) = fixed_orders.order_temperatures(replace(part, temperature=at, nominal_temperature=at), Costs())
     assert f"test specimens a and b at {new} degC, " in order["text"]
-    assert fixed_orders.more_temperatures(table(4), Costs()) == []
+    assert fixed_orders.order_temperatures(table(4), Costs()) == []
 
 
 def test_gauges_are_checked_first_where_half_of_the_tests_exceed_a_limit():
@@ -394,11 +394,11 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     limits = {bias.key: wide}
     shown = replace(delayed, ladder=replace(delayed.ladder, limits=limits))
     nowhere = replace(delayed, ladder=replace(delayed.ladder, limits={}))
-    assert instructions._by_limit(shown, bias) == pytest.approx((3.7 + 1.645) ** 2)
-    assert instructions._by_limit(nowhere, bias) == 0.0
+    assert instructions._strength_by_limit(shown, bias) == pytest.approx((3.7 + 1.645) ** 2)
+    assert instructions._strength_by_limit(nowhere, bias) == 0.0
     assert all(one.hidden >= 0.0 for one in reach)
     asked = order_words.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
-    (said,) = order_words._within_reach([(asked, 9.0, 90.0)], order_words.Context())
+    (said,) = order_words._reachable_causes([(asked, 9.0, 90.0)], order_words.Context())
     assert said.endswith("with a chance of 100 %; without it the chance is 0 %.")
 
 
@@ -513,5 +513,5 @@ def test_a_specimen_may_be_called_anything(delayed):
     assert found.ladder.discrepancy  # whose parts had such names
     assert {one.specimen for one in found.ladder.discrepancy} == {None, *names}
     assert instructions.instructions(found)["orders"]
-    assert in_words("loose_clamp @ 21") == "loose clamp of specimen 21"
-    assert in_words("temperature_bias @ 21.0") == "temperature bias at 21 degC"
+    assert spell_cause("loose_clamp @ 21") == "loose clamp of specimen 21"
+    assert spell_cause("temperature_bias @ 21.0") == "temperature bias at 21 degC"

@@ -56,7 +56,9 @@ def fit(table):
 def moved(joint, fitted, step):
     """Law, scales and causes moved by a step, in the order of the parameters."""
     p, s = fitted.law.size, fitted.scales.size
-    values = [c.with_values(np.array(c.values) + x * c.typical) for c, x in zip(fitted.active, step[p + s :])]
+    values = [
+        c.replace_values(np.array(c.values) + x * c.typical) for c, x in zip(fitted.active, step[p + s :])
+    ]
     return joint.linearise(fitted.law + step[:p], fitted.scales + step[p : p + s], tuple(values))
 
 
@@ -109,10 +111,10 @@ def test_a_cause_is_fitted_with_the_size_that_was_put_in(table, fit):
             changed = changed / LAW.complex_modulus(table.omega, table.temperature)
         rows = active.cause.rows(table, active.place)
         shown = Joint(replace(table, modulus=np.where(rows, changed, table.modulus)), fit[0].base, noise)
-        found = shown.fit(fitted.law, fitted.scales, (active.with_values(np.zeros(1)),))
+        found = shown.fit(fitted.law, fitted.scales, (active.replace_values(np.zeros(1)),))
         error = np.sqrt(found.covariance[-1, -1]) * active.typical[0]
         without = Joint(table, fit[0].base, noise).fit(
-            fitted.law, fitted.scales, (active.with_values(np.zeros(1)),)
+            fitted.law, fitted.scales, (active.replace_values(np.zeros(1)),)
         )
         own = without.active[0].values[0]
         assert abs(found.active[0].values[0] - own - active.values[0]) < 0.6 * error, active.cause.name
@@ -135,7 +137,7 @@ def test_what_is_left_out_is_predicted_by_the_others(table, fit):
     spoilt[rows] *= 1.5
     other = Joint(replace(table, modulus=spoilt), joint.base, joint.noise)
     off = (
-        joint.predict(other.without(rows, fitted))
+        joint.predict(other.refit_without(rows, fitted))
         - np.log(LAW.complex_modulus(table.omega, table.temperature))
     )[rows]
     assert np.abs(off - np.array([-0.05, 0.0, 0.08])).max() < 0.03  # as if they had not been spoilt

@@ -50,7 +50,7 @@ def test_a_column_is_what_one_kelvin_or_one_mounting_does():
         joint.base.modulus(fit.law, observed.omega, observed.temperature + warmer)[0]
         / joint.base.modulus(fit.law, observed.omega, observed.temperature - warmer)[0]
     )
-    of_isotherms = laboratory._of_isotherm(joint, fit) / laboratory.OF_ISOTHERM
+    of_isotherms = laboratory._isotherm_factor(joint, fit) / laboratory.OF_ISOTHERM
     column = of_isotherms[:, 1]
     assert np.allclose(column, change, atol=3e-3 * np.abs(change).max()) and not column[~first].any()
     of_mountings = roots["specimen temperature"]
@@ -100,7 +100,7 @@ def test_an_angle_that_all_phases_share_is_no_error_of_mountings(offset):
     drawn = np.radians(0.3) * np.random.default_rng(6).standard_normal((2, 3))
     moved = np.exp(1j * drawn[still.specimen, np.searchsorted(still.isotherms, still.isotherm)])
     sizes = [
-        laboratory.with_laboratory(
+        laboratory.add_laboratory(
             *fitted(replace(still, modulus=still.modulus * moved * np.exp(1j * np.radians(angle))))
         )[1].sizes
         for angle in (0.0, offset)
@@ -112,10 +112,12 @@ def test_the_scatter_holds_every_effect_once():
     """Two tests of one mounting share its level, its phase and its temperature; of one isotherm, the temperature."""
     joint, fit = fitted(table(3))
     joint = Joint(joint.observed, joint.base, replace(joint.noise, shared=0.5 * joint.noise.within))
-    with_it, found = laboratory.with_laboratory(joint, fit)
+    with_it, found = laboratory.add_laboratory(joint, fit)
     assert not with_it.noise.shared.any()
     n, observed = joint.observed.size, joint.observed
-    per_kelvin, per_time = (of(joint, fit.law) for of in (laboratory._per_kelvin, laboratory._per_time))
+    per_kelvin, per_time = (
+        of(joint, fit.law) for of in (laboratory._temperature_slope, laboratory._time_slope)
+    )
     same = observed.isotherm[:, None] == observed.isotherm
     own = observed.specimen[:, None] == observed.specimen
     mounted = same & own

@@ -16,7 +16,7 @@ from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.simulation.extension import law_notes, material_law
 from asphalt_nscd.diagnosis.words.unexplained import left
-from asphalt_nscd.diagnosis.words.verdict import on_simulation
+from asphalt_nscd.diagnosis.words.verdict import simulation_miss
 from asphalt_nscd.table_import.campaign import read_campaign
 
 FEW = 500  # draws: what is tested here does not hang on the third digit of a chance
@@ -137,7 +137,7 @@ def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
         ],
         "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5},
     }
-    assert on_simulation(found).endswith(
+    assert simulation_miss(found).endswith(
         "fits these tests to within their scatter, but that scatter includes specimen B at 20 degC, which is odd."
     )
     assert left(found)[-1] == "These sizes include what is odd: specimen B at 20 degC"
@@ -175,14 +175,14 @@ def test_an_odd_modulus_and_phase_that_one_temperature_explains_say_which(export
     assert (found["specimen"], found["temperature_C"]) == ("Mix-B", 20)
     # The slope is that of the chord to the isotherms beside it, which is flatter than the curve: 11 and 14 % more.
     assert found["kelvin"] == pytest.approx(1.125 * kelvin, rel=0.03)
-    (said,) = levels.of_temperatures([found])
+    (said,) = levels.temperature_notes([found])
     side = "warmer" if kelvin > 0.0 else "colder"
     assert said.startswith(f"at 20 degC specimen Mix-B seems {abs(found['kelvin']):.2g} K {side} than stated")
 
 
 @pytest.mark.parametrize("share,told", [(-1.0, False), (0.4, False), (0.6, True), (1.9, True), (2.1, False)])
 def test_temperatures_that_differ_more_than_twofold_are_not_one(monkeypatch, share, told):
-    monkeypatch.setattr(levels, "_per_kelvin", lambda *_: (-0.1, 2.0))
+    monkeypatch.setattr(levels, "_isotherm_slopes", lambda *_: (-0.1, 2.0))
     place = {"specimen": "A", "temperature_C": 20.0}
     by_modulus, by_phase = place | {"factor": np.exp(-0.1 * share)}, place | {"phase_deg": 2.0}
     found = levels.odd_temperatures(None, [by_modulus], [by_phase])
@@ -195,8 +195,8 @@ def test_temperatures_that_differ_more_than_twofold_are_not_one(monkeypatch, sha
 def test_two_sweeps_that_each_look_like_the_other_are_told_exchanged(kelvin, told):
     found = [{"specimen": "B", "temperature_C": t, "kelvin": k} for t, k in zip((15.0, 25.0), kelvin)]
     exchanged = ["specimen B: the sweeps at 15 and 25 degC look exchanged: check the record"]
-    assert levels.of_exchanged([], found) == exchanged * told
-    assert not levels.of_exchanged([], [found[0], found[1] | {"specimen": "C"}])
+    assert levels.swap_notes([], found) == exchanged * told
+    assert not levels.swap_notes([], [found[0], found[1] | {"specimen": "C"}])
 
 
 @pytest.mark.parametrize(
@@ -207,7 +207,7 @@ def test_two_specimens_that_are_off_by_inverse_factors_are_told_exchanged(other,
         {"specimen": name, "temperature_C": t, "factor": factor}
         for name, (t, factor) in zip("BA", [other, (25.0, 0.82)])
     ]
-    said = levels.of_exchanged(found, [])
+    said = levels.swap_notes(found, [])
     assert len(said) == told
     assert all(
         one.startswith("at 25 degC specimen A is as far below its level of |E*| as specimen B is")

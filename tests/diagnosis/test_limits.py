@@ -29,7 +29,7 @@ def limits_of(joint, fitted, candidates):
 def test_power_at_the_limit_is_95_percent(fit, one):  # noqa: F811
     """Scatter is drawn and a law from its prior; the cause acts by its own formula, in its own unit."""
     joint, fitted = fit
-    absent = one.with_values(np.zeros(1))
+    absent = one.replace_values(np.zeros(1))
     size = limits_of(joint, fitted, [absent])[0][one.key]
     modulus = np.exp(joint.predict(fitted))
     rows = one.cause.rows(joint.observed, one.place)
@@ -51,7 +51,7 @@ def test_power_at_the_limit_is_95_percent(fit, one):  # noqa: F811
 
 def test_what_cannot_be_seen_has_no_limit_and_is_told(fit):  # noqa: F811
     joint, fitted = fit
-    absent = [one.with_values(np.zeros(1)) for one in (ACTIVE[0], ACTIVE[2])]
+    absent = [one.replace_values(np.zeros(1)) for one in (ACTIVE[0], ACTIVE[2])]
     directions = chance.candidate_directions(joint, fitted, absent)
     found = chance.scores(joint, fitted, directions, np.array([False, True]))
     blind = replace(found, seen=np.array([True, False]))
@@ -62,7 +62,7 @@ def test_what_cannot_be_seen_has_no_limit_and_is_told(fit):  # noqa: F811
 def test_a_limit_beyond_any_size_of_its_cause_is_none(table, fit):  # noqa: F811
     """A common offset of 280 deg was once told as a limit."""
     joint, fitted = fit
-    absent = ACTIVE[0].with_values(np.zeros(1))
+    absent = ACTIVE[0].replace_values(np.zeros(1))
     blurred = Joint(table, joint.base, replace(joint.noise, within=1e4 * joint.noise.within))
     sizes, unseen = limits_of(blurred, blurred.linearise(fitted.law, fitted.scales, ()), [absent])
     assert not sizes and unseen == [absent]
@@ -70,7 +70,7 @@ def test_a_limit_beyond_any_size_of_its_cause_is_none(table, fit):  # noqa: F811
 
 def test_twice_the_scatter_doubles_a_limit(table, fit):  # noqa: F811
     joint, fitted = fit
-    absent = [one.with_values(np.zeros(1)) for one in ACTIVE[:2]]
+    absent = [one.replace_values(np.zeros(1)) for one in ACTIVE[:2]]
     wide = Joint(
         table,
         joint.base,
@@ -85,7 +85,7 @@ def test_twice_the_scatter_doubles_a_limit(table, fit):  # noqa: F811
 
 def test_the_law_is_fitted_again_where_it_leaves_less_than_a_twentieth_of_an_effect(fit, monkeypatch):  # noqa: F811
     joint, fitted = fit
-    absent = [one.with_values(np.zeros(1)) for one in ACTIVE[:2]]
+    absent = [one.replace_values(np.zeros(1)) for one in ACTIVE[:2]]
     square = (joint.noise.whiten(chance.candidate_directions(joint, fitted, absent)) ** 2).sum(axis=0)
     refitted = []
 
@@ -93,7 +93,7 @@ def test_the_law_is_fitted_again_where_it_leaves_less_than_a_twentieth_of_an_eff
         refitted.append(candidate.key)
         return 2.0
 
-    monkeypatch.setattr(limits, "_by_refit", by_refit)
+    monkeypatch.setattr(limits, "_refit_ratio", by_refit)
     found = Scores(np.zeros(2), np.array([0.04, 0.06]) * square, np.ones(2, bool), np.eye(2))
     sizes, _ = limits.detection_limits(joint, fitted, absent, found, THRESHOLD)
     assert refitted == [absent[0].key]

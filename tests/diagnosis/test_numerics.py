@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.diagnosis.simulation.numerics import of_campaign
+from asphalt_nscd.diagnosis.simulation.numerics import numerical_errors
 from asphalt_nscd.files.errors import InputError
 
 
@@ -25,7 +25,7 @@ def test_departures_from_law_and_ratio(tmp_path):
     tests.loc[7, ["E_MPa", "phase_deg", "broken_bonds"]] = 1050.0 * np.exp(-0.03), 20.5, 4
     tests["E_peak_MPa"], tests["phase_peak_deg"] = tests["E_MPa"] * np.exp(-0.001), tests["phase_deg"] + 0.3
     tests.to_csv(tmp_path / "simulations.csv", index=False)
-    found = of_campaign(tmp_path / "simulations.csv", np.array([15.2]), np.array([3.0]))
+    found = numerical_errors(tmp_path / "simulations.csv", np.array([15.2]), np.array([3.0]))
     assert found == {
         "tests": 10,
         "tests_with_broken_bonds": 1,
@@ -39,4 +39,4 @@ def test_departures_from_law_and_ratio(tmp_path):
     with pytest.raises(
         InputError, match="simulations.csv: no test at a temperature and frequency that was measured"
     ):
-        of_campaign(tmp_path / "simulations.csv", np.array([15.0, 20.0]), np.array([10.0, 3.0]))
+        numerical_errors(tmp_path / "simulations.csv", np.array([15.0, 20.0]), np.array([10.0, 3.0]))

@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.criteria import HALF_FROM, NAMED, SUREST
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.model.probability import log_odds, shares, stated
-from asphalt_nscd.diagnosis.record.report import as_json
+from asphalt_nscd.diagnosis.record.report import diagnosis_content
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.simulation.simulated import read_specimen
 
@@ -86,7 +86,11 @@ def test_the_report_states_the_calibrated_probability():
     assert few.doubts.keys() == {rung.candidate.key} and rung.probability > SUREST[False]
 
     def told(found):
-        (one,) = [one for one in as_json(found, read_specimen())["ladder"] if one["cause"] == "phase_offset"]
+        (one,) = [
+            one
+            for one in diagnosis_content(found, read_specimen())["ladder"]
+            if one["cause"] == "phase_offset"
+        ]
         return one["established"], one["probability"]
 
     assert told(diagnose(whole)) == (True, SUREST[True])

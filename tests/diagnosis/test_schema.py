@@ -14,7 +14,7 @@ from asphalt_nscd.diagnosis import run
 from asphalt_nscd.diagnosis.record import report
 from asphalt_nscd.diagnosis.simulation import gain
 from asphalt_nscd.diagnosis.words.summary import summary
-from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, shown, widening, with_interval
+from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, interval_text, shown, widening
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius
 
@@ -168,7 +168,7 @@ def test_amplitudes_stand_with_their_interval_in_the_summary(diagnosed):
         first = next(iter(rung["parameters"].values()))
         value, half = (shown(first[name] or 0.0, first["unit"])[0] for name in ("value", "std_error"))
         half *= 1.96 * widening(content["estimates_spread"])
-        assert not half or with_interval(value, half) in said
+        assert not half or interval_text(value, half) in said
 
 
 def test_gains_are_errors_of_single_tests_and_of_averages_over_specimens(diagnosed):
@@ -195,9 +195,9 @@ def test_an_isotherm_at_an_end_is_no_part_of_the_held_out_error(monkeypatch):
     monkeypatch.setattr(gain, "errors", lambda *_: {"mre_E_percent": {}, "mre_phase_percent": {}})
     before = observed.logarithm + np.where(temperature == 10.0, 0.02, 0.5)
     after = observed.logarithm + np.where(temperature == 10.0, 0.01, 5.0)
-    error = gain.before_and_after(diagnosis, before, after, inner=True)["mre_E_percent"]
+    error = gain.compare_errors(diagnosis, before, after, inner=True)["mre_E_percent"]
     assert error == {"before": pytest.approx(2.02, abs=0.01), "after": pytest.approx(1.005, abs=0.001)}
-    assert gain.before_and_after(diagnosis, before, after)["mre_E_percent"]["after"] > 1000.0
+    assert gain.compare_errors(diagnosis, before, after)["mre_E_percent"]["after"] > 1000.0
 
 
 def test_residuals_are_logarithms_of_measured_over_simulated(diagnosed):

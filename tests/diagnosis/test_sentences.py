@@ -9,10 +9,10 @@ from asphalt_nscd.diagnosis.words import sentences, unexplained
 from asphalt_nscd.diagnosis.words.sentences import (
     cause_words,
     causes,
+    doubtful_change,
     estimate,
     law_of_the_mix,
-    with_suspects,
-    without_doubtful,
+    suspect_change,
 )
 from asphalt_nscd.diagnosis.words.unexplained import left
 from asphalt_nscd.diagnosis.written import interval_95
@@ -49,8 +49,8 @@ def content(used: int, out: int, **then):
 )
 def test_what_is_named_without_the_doubtful_tests_is_told(named, changed):
     then = {"verdict": "explained", "causes": named}
-    assert without_doubtful(content(1, 0, without_doubtful=then)) == changed
-    assert with_suspects(content(1, 1, with_suspects=then)) == changed.replace(
+    assert doubtful_change(content(1, 0, without_doubtful=then)) == changed
+    assert suspect_change(content(1, 1, with_suspects=then)) == changed.replace(
         "If the doubtful tests were left out", "If the tests left out were kept"
     )
 
@@ -60,7 +60,7 @@ def test_the_same_causes_in_another_order_are_the_same():
     found["ladder"] = [{"cause": name, "where": None} for name in ("phase_offset", "channel_delay")]
     found["with_suspects"]["causes"] = found["ladder"][::-1]
     assert (
-        with_suspects(found) == "If the tests left out were kept, the diagnosis would name the same causes."
+        suspect_change(found) == "If the tests left out were kept, the diagnosis would name the same causes."
     )
 
 
@@ -233,9 +233,9 @@ def test_intervals_hold_the_spread_of_a_table_whose_tests_lie_far_from_the_fit()
     )
     assert hidden in causes(SOUND | {"ladder": [worse | {"established": False}]})[0][1]
     assert "not in the answer" not in causes(SOUND | {"ladder": [worse]})[0][1] + causes(near)[0][1]
-    assert sentences.of_intervals(near) == "+- is the 95 % interval."
-    assert sentences.of_intervals(far).endswith("so it was widened 2.0 times.")
-    assert sentences.of_intervals(SOUND | {"ladder": []}) == ""
+    assert sentences.interval_note(near) == "+- is the 95 % interval."
+    assert sentences.interval_note(far).endswith("so it was widened 2.0 times.")
+    assert sentences.interval_note(SOUND | {"ladder": []}) == ""
 
 
 LIMITS = {

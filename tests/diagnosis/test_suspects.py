@@ -247,7 +247,7 @@ def test_replicates_that_find_a_test_in_place_ask_causality_for_more(monkeypatch
     )
     assert row not in out(altered(altered(observed, [row], enough), others, 0.7 * enough))
     in_place = np.full((observed.size, 2), 1e-9), np.ones((observed.size, 2))
-    monkeypatch.setattr(suspects, "_from_replicates", lambda *_: in_place)
+    monkeypatch.setattr(suspects, "_replicate_distance", lambda *_: in_place)
     assert not out(altered(observed, [row], enough)) and out(altered(observed, [row], 2.0 * enough)) == [row]
 
 

@@ -14,7 +14,7 @@ def test_the_variance_added_is_slope_times_covariance_times_slope():
     """Slope of the amplitude and curvature of the objective along ln v, both by differences."""
     model, cause = small(np.random.default_rng(5))
     found = likelihood.estimate(model, cause)
-    wide = likelihood.with_uncertain_sizes(model, cause, found)
+    wide = likelihood.widen_error(model, cause, found)
     log_v = np.log(found.variances)
 
     def slope(at):

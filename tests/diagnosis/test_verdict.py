@@ -6,7 +6,7 @@ from test_sentences import content, part_left
 
 from asphalt_nscd.diagnosis.words import verdict
 from asphalt_nscd.diagnosis.words.unexplained import left
-from asphalt_nscd.diagnosis.words.verdict import on_simulation
+from asphalt_nscd.diagnosis.words.verdict import simulation_miss
 
 
 def structure_left():
@@ -33,7 +33,7 @@ def structure_left():
 def test_what_cannot_judge_the_simulation_says_why_and_what_to_add(specimens, replicated, said):
     found = content(0, 0, verdict="nothing_to_explain", tested=False, provenance={"scatter_stated": None})
     found |= {"ladder": [], "reading": {"specimens": specimens}, "scatter": {"from_replicates": replicated}}
-    assert on_simulation(found).startswith(said)
+    assert simulation_miss(found).startswith(said)
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_a_law_that_misses_more_than_before_is_not_to_be_used(after, said):
         "gain": {"in_sample": {"averages_by_temperature": {"20": errors}}},
     }
     found = structure_left() | {"ladder": [rung]}
-    assert on_simulation(found, after).endswith(
+    assert simulation_miss(found, after).endswith(
         f"more than scatter within specimens can explain, and no cause was found.{said}"
     )
 
@@ -70,16 +70,16 @@ def test_a_ladder_without_a_spectrum_says_which_law_it_begins_with(burgers, law)
         "ladder": [SURE | {"cause": "phase_offset", "where": None, "gain": gain}],
         "baseline": {"mre_E_percent": {"20": burgers}},
     }
-    assert on_simulation(found) == (
+    assert simulation_miss(found) == (
         f"{law}, fitted together with a phase offset, misses the mean of the specimens by 1 % in |E*| and 1 % in the "
         "phase, more than scatter within specimens can explain. Without this cause it misses by 10 % and 10 %."
     )
     found["scatter"]["from_replicates"] = False
-    assert on_simulation(found).startswith(
+    assert simulation_miss(found).startswith(
         f"{law}, fitted together with a phase offset, misses the tests by 1 %"
     )
     alone = found | {"tested": False, "provenance": {"scatter_stated": None}}
-    assert "% in the phase, and nobody knows how much of that is scatter. Without" in on_simulation(alone)
+    assert "% in the phase, and nobody knows how much of that is scatter. Without" in simulation_miss(alone)
 
 
 def test_two_laws_are_told_by_two_names_with_their_weights():
@@ -139,11 +139,11 @@ def test_a_law_that_predicts_badly_is_warned_of(coldest, inner, told, where):
     }
     held_out = {"leave_one_isotherm_out": {"averages_by_temperature": by}}
     found = SOUND | {"ladder": [{"gain": {"in_sample": {}, "held_out": held_out}}]}
-    said = " ".join(verdict.beyond_the_tests(found))
+    said = " ".join(verdict.extrapolation_warning(found))
     assert said.endswith(told) and bool(said) == bool(told)
     assert verdict.predicted_badly(found) == where
     one = {"leave_one_isotherm_out": {"averages_by_temperature": {"21": by["21"]}}}
-    alone = verdict.beyond_the_tests(SOUND | {"ladder": [{"gain": {"in_sample": {}, "held_out": one}}]})
+    alone = verdict.extrapolation_warning(SOUND | {"ladder": [{"gain": {"in_sample": {}, "held_out": one}}]})
     assert bool(alone) == (inner > 10.0)  # one temperature is both ends
-    assert verdict.beyond_the_tests(SOUND) == []
+    assert verdict.extrapolation_warning(SOUND) == []
     assert verdict.predicts_badly(held_out["leave_one_isotherm_out"], inner=True) == (inner > 10.0)

@@ -73,7 +73,7 @@ def test_an_effect_of_all_tests_is_found_beside_broken_isotherms(hidden):
     candidate = next(c for c in state.fitted.active if c.cause.name == name)
     value, error = limits_beside.estimates(state, survey)[candidate.key]
     assert abs(value - size) < 3.0 * error and error < 0.1 * abs(size)
-    sizes_known = fit_beside.of_taken(state, candidate).std_error * candidate.typical[0]
+    sizes_known = fit_beside.taken_amplitude(state, candidate).std_error * candidate.typical[0]
     assert sizes_known < error < 2.0 * sizes_known
     assert with_discrepancy.hangs_on(state, candidate) == []
 
@@ -95,7 +95,7 @@ def test_a_second_process_is_found_by_what_it_gains_however_uncertain_its_size()
     candidate = state.fitted.active[0]
     assert with_discrepancy.hangs_on(state, candidate) == []
     rows = np.flatnonzero(observed.isotherm != 20.0)
-    assert fit_beside.of_taken(state, candidate, rows).z < with_discrepancy.SURVIVES
+    assert fit_beside.taken_amplitude(state, candidate, rows).z < with_discrepancy.SURVIVES
     # What is judged in its place is no more than a step from the fit: it is the fit's own, and that of one anew.
     before = taken[0].before
     everything = np.arange(observed.size)
@@ -112,7 +112,7 @@ def test_a_second_process_that_one_isotherm_alone_asks_for_hangs_on_it():
     odd = replace(observed, modulus=np.where(here, with_second, observed.modulus))
     noise = scatter.stated(odd, 0.01, np.radians(0.3), 0.03)
     begun = fit_beside.begin(*start.fit_spectrum(odd, noise))
-    state = fit_beside.with_causes(begun, (Candidate(second, None, (2e9, -2.0, 60.0, 0.6)),))
+    state = fit_beside.refit_causes(begun, (Candidate(second, None, (2e9, -2.0, 60.0, 0.6)),))
     assert "20 degC" in with_discrepancy.hangs_on(state, state.fitted.active[0])
 
 
@@ -137,12 +137,12 @@ def test_shapes_cost_the_share_of_their_prior_that_the_tests_leave_them(monkeypa
     with_discrepancy._next(begun, surveyed, 500, np.random.default_rng(0))
     whole = gains["channel_delay"]
     assert whole == pytest.approx(begun.misfit - misfits["channel_delay"])
-    cost = fit_beside.of_shapes(*fits["secondary_process"], observed)
+    cost = fit_beside.shape_cost(*fits["secondary_process"], observed)
     assert cost > 6.0
     assert gains["secondary_process"] == pytest.approx(begun.misfit - misfits["secondary_process"] - cost)
     for left in (6.2, 5.8):  # of a gain, where 2 ln 20 is twenty times as likely
         gains.clear()
-        monkeypatch.setattr(with_discrepancy, "of_shapes", lambda *_, left=left: whole - left)
+        monkeypatch.setattr(with_discrepancy, "shape_cost", lambda *_, left=left: whole - left)
         with_discrepancy._next(begun, surveyed, 500, np.random.default_rng(0))
         assert ("channel_delay" in gains) == (left > 2.0 * np.log(20.0))
 
@@ -164,9 +164,9 @@ def test_the_cost_of_shapes_is_that_of_an_integral_over_them():
     for error, span in zip(errors[1:], spans, strict=True):
         even = 1.0 / (span + np.sqrt(2.0 * np.pi))  # density at the fit of a prior about each of even starts
         share *= np.trapezoid(even * np.exp(-0.5 * (u / error) ** 2), u)
-    assert fit_beside.of_shapes(fitted, candidate, observed) == pytest.approx(-2.0 * np.log(share), rel=1e-3)
+    assert fit_beside.shape_cost(fitted, candidate, observed) == pytest.approx(-2.0 * np.log(share), rel=1e-3)
     single = Candidate(next(c for c in CATALOGUE if c.name == "channel_delay"), None, (1e-4,))
-    assert fit_beside.of_shapes(fitted, single, observed) == 0.0
+    assert fit_beside.shape_cost(fitted, single, observed) == 0.0
 
 
 def test_the_limit_of_a_second_process_pays_for_its_shapes(monkeypatch):
@@ -179,7 +179,7 @@ def test_the_limit_of_a_second_process_pays_for_its_shapes(monkeypatch):
         return limits_beside.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
 
     usual = limits()
-    monkeypatch.setattr(limits_beside, "of_shapes", lambda fitted, candidate, observed: 40.0)
+    monkeypatch.setattr(limits_beside, "shape_cost", lambda fitted, candidate, observed: 40.0)
     dear = limits()
     assert dear["secondary_process", None] > 1.1 * usual["secondary_process", None]
     assert dear["channel_delay", None] == usual["channel_delay", None]
@@ -192,10 +192,10 @@ def test_what_competes_for_a_name_has_a_size_and_shapes_of_its_own():
     by_name = {cause.name: cause for cause in CATALOGUE}
 
     def stands(name: str, *values: float) -> tuple[bool, bool]:
-        state = fit_beside.with_causes(begun, (Candidate(by_name[name], None, values),))
+        state = fit_beside.refit_causes(begun, (Candidate(by_name[name], None, values),))
         taken = state.fitted.active[-1]
-        return with_discrepancy.stands(begun, state, taken, fit_beside.of_taken(state, taken)), bool(
-            taken.at_bounds
+        return with_discrepancy.stands(begun, state, taken, fit_beside.taken_amplitude(state, taken)), bool(
+            taken.pinned
         )
 
     assert stands("channel_delay", 6e-5) == (True, False)
@@ -249,7 +249,7 @@ def test_a_fit_of_shapes_that_does_not_stand_gives_way_to_one_from_another_start
 
 @pytest.mark.parametrize("likelier", ["secondary_process", "channel_delay"])
 def test_of_causes_as_good_the_likelier_is_named_whatever_its_shapes(monkeypatch, likelier):
-    monkeypatch.setattr(with_discrepancy, "of_shapes", lambda *_: 0.0)
+    monkeypatch.setattr(with_discrepancy, "shape_cost", lambda *_: 0.0)
     odds = {"secondary_process": 0.0, "channel_delay": 0.0} | {likelier: 0.1}  # together possible, not alone
     observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
     found = _next_name(monkeypatch, observed, lambda *_: True, odds)
@@ -325,7 +325,7 @@ def test_a_cause_of_an_isotherm_is_no_hindrance_where_that_isotherm_is_left_out(
     part = Joint(observed.subset(rows), state.plain.base, state.plain.noise.subset(rows))
     linear = part.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
     assert np.linalg.eigvalsh(linear.precision).min() > 1e-6
-    found = fit_beside.of_taken(state, state.fitted.active[0], rows)
+    found = fit_beside.taken_amplitude(state, state.fitted.active[0], rows)
     size, error = (x * active[0].typical[0] for x in (found.amplitude, found.std_error))
     assert error < 0.2 and abs(size - 3.0) < 4.0 * error
 
@@ -399,7 +399,7 @@ def test_the_limit_of_a_cause_in_the_fit_is_its_standard_error_times_what_chance
     _, state, survey = climbed(table(delay=6e-4))
     (candidate,) = (c for c in state.fitted.active if c.cause.name == "channel_delay")
     found, _, _ = limits_beside.detection_limits(state, survey, 500, np.random.default_rng(0))
-    own = fit_beside.of_taken(state, candidate).std_error * candidate.typical[0]
+    own = fit_beside.taken_amplitude(state, candidate).std_error * candidate.typical[0]
     assert 4.0 < found[candidate.key] / own < 7.0
 
 
@@ -432,7 +432,7 @@ def test_a_spring_that_the_law_has_followed_gets_its_name():
     taken, state, _ = climbed(observed)
     (one,) = taken
     assert one.candidate.cause.name == "guide_stiffness"
-    error = fit_beside.of_taken(state, state.fitted.active[0]).std_error * 2e7
+    error = fit_beside.taken_amplitude(state, state.fitted.active[0]).std_error * 2e7
     assert abs(state.fitted.active[0].values[0] - spring) < 3.0 * error and error < 0.1 * spring
 
 

@@ -11,7 +11,7 @@ from naive.prony import ROOT, SPECTRA, assert_within, stated
 
 from asphalt_nscd.exports.card import UNITS, Settings, make_card
 from asphalt_nscd.exports.export import export_law
-from asphalt_nscd.exports.law import as_wlf, read_law_file
+from asphalt_nscd.exports.law import read_law_file, wlf_of
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.chain_law import chain_law
@@ -77,7 +77,7 @@ def test_a_bond_law_of_the_extended_simulation_comes_back(tmp_path):
 def test_an_arrhenius_shift_is_a_wlf_shift():
     shift = Arrhenius(190e3, 15.0)
     temperature = np.linspace(-30.0, 60.0, 19)
-    np.testing.assert_allclose(as_wlf(shift).factor(temperature), shift.factor(temperature), rtol=1e-10)
+    np.testing.assert_allclose(wlf_of(shift).factor(temperature), shift.factor(temperature), rtol=1e-10)
 
 
 def test_a_spring_alone_is_refused(tmp_path):

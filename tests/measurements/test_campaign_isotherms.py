@@ -10,7 +10,7 @@ from asphalt_nscd.measurements.campaign import (
     isotherm_notes,
     isotherms,
     nominal_temperatures,
-    with_sweeps_apart,
+    separate_sweeps,
 )
 
 
@@ -111,4 +111,4 @@ def test_a_sweep_of_one_specimen_belongs_to_the_isotherm_that_it_lacks(sweeps, b
     specimen = np.array([name for name, at in sweeps.items() for _ in at])
     given = np.array([t for at in sweeps.values() for t in at], float)
     expected = [belongs_to.get(t, t) for t in given]
-    assert with_sweeps_apart(given, specimen).tolist() == expected
+    assert separate_sweeps(given, specimen).tolist() == expected

@@ -63,12 +63,12 @@ def test_origin_names_all_there_are():
 
 def test_rows_of_one_temperature():
     frame = pd.DataFrame({"temperature_C": [15.0, 15.0 + 1e-9, 20.0]})
-    assert len(results.at_temperature(frame, 15.0)) == 2
+    assert len(results.isotherm_rows(frame, 15.0)) == 2
     with pytest.raises(InputError, match="no test at 5 degC; the table has 15"):
-        results.at_temperature(frame, 5.0)
+        results.isotherm_rows(frame, 5.0)
 
 
 def test_exactly_one_file():
-    assert str(results.the_only(["a"], "law")) == "a"
+    assert str(results.only_file(["a"], "law")) == "a"
     with pytest.raises(InputError, match="2 files given as 'law'"):
-        results.the_only(["a", "b"], "law")
+        results.only_file(["a", "b"], "law")

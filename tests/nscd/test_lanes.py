@@ -8,10 +8,10 @@ from numba import njit
 
 from asphalt_nscd.nscd.lanes import (
     WIDTH,
-    above,
     aligned,
     broadcast,
     gather,
+    greater_bits,
     largest,
     load,
     scatter,
@@ -55,7 +55,7 @@ def test_each_lane_is_compared_by_itself(numbers):
     def compare(array, limit):
         a, b = load(array, 0, 0), load(array, 0, 1)
         store(array, 0, 2, select_greater(a, b, a, broadcast(limit)))
-        return above(a, b), largest(a)
+        return greater_bits(a, b), largest(a)
 
     a, b = numbers[0, :2].copy()
     a[3] = b[3]  # equal is not above

@@ -104,7 +104,7 @@ def test_small_strains_are_those_of_small_displacements():
         bonds.strength,
         0.5,
     )
-    small = CondensedStepper(system, LAW, dt, CondensedState.at_rest(system, LAW))
+    small = CondensedStepper(system, LAW, dt, CondensedState.rest_state(system, LAW))
     start = np.zeros((n, 6))
     start[:, 2] = 1e-4 * np.cos(np.pi * position[:, 0] / position[-1, 0] * 2.0)
     large = world(position, bonds, NOWHERE, dt, velocity=start)

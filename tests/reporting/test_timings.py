@@ -6,7 +6,7 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.reporting.timings import as_markdown, by_rule, elapsed
+from asphalt_nscd.reporting.timings import elapsed, rule_times, timing_summary
 
 HEADER = "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"
 
@@ -24,7 +24,7 @@ def test_only_the_jobs_named_count(tmp_path):
     benchmark(tmp_path / "simulate/s1/T15/f3.tsv", 5.0, 100.0, 4.0)
     benchmark(tmp_path / "simulate/s9/T15/f3.tsv", 3.0, 120.0, 2.5)
     named = [tmp_path / "simulate/s1/T15/f3.tsv", tmp_path / "never_timed.tsv"]
-    assert by_rule(named, tmp_path)[["rule", "jobs", "wall_s"]].values.tolist() == [["simulate", 1, 5.0]]
+    assert rule_times(named, tmp_path)[["rule", "jobs", "wall_s"]].values.tolist() == [["simulate", 1, 5.0]]
 
 
 def test_jobs_are_summed_by_rule_most_time_first(tmp_path):
@@ -35,14 +35,14 @@ def test_jobs_are_summed_by_rule_most_time_first(tmp_path):
         "rule": ["simulate", "reduce"], "jobs": [2, 1], "wall_s": [8.0, 2.0], "cpu_s": [6.5, 1.5],
         "longest_s": [5.0, 2.0], "memory_MB": [120.0, 80.0], "share_percent": [80.0, 20.0],
     })  # fmt: skip
-    pd.testing.assert_frame_equal(by_rule(files(tmp_path), tmp_path), expected)
+    pd.testing.assert_frame_equal(rule_times(files(tmp_path), tmp_path), expected)
 
 
 def test_job_too_short_to_be_measured_counts_as_none(tmp_path):
     benchmark(tmp_path / "fit/T15.tsv", 0.1, "-", "-")
     benchmark(tmp_path / "fit/T10.tsv", 0.1, "NA", "NA")
     benchmark(tmp_path / "fit/T20.tsv", 0.3, 50.0, 0.2)
-    assert by_rule(files(tmp_path), tmp_path).loc[0, ["cpu_s", "memory_MB"]].tolist() == [0.2, 50.0]
+    assert rule_times(files(tmp_path), tmp_path).loc[0, ["cpu_s", "memory_MB"]].tolist() == [0.2, 50.0]
 
 
 def test_time_elapsed_counts_jobs_side_by_side_once_and_no_pause(tmp_path):
@@ -60,13 +60,13 @@ def test_time_elapsed_counts_jobs_side_by_side_once_and_no_pause(tmp_path):
 
 def test_no_benchmarks(tmp_path):
     with pytest.raises(InputError, match="no benchmark files; run the workflow first"):
-        by_rule([tmp_path / "fit.tsv"], tmp_path)
+        rule_times([tmp_path / "fit.tsv"], tmp_path)
 
 
 def test_markdown_sums_what_is_short(tmp_path):
     for name, seconds in {"deposit": 900.0, "a": 5.0, "b": 3.0}.items():
         benchmark(tmp_path / f"{name}.tsv", seconds, 100.0, seconds / 2)
-    lines = as_markdown(by_rule(files(tmp_path), tmp_path), 750.0).splitlines()
+    lines = timing_summary(rule_times(files(tmp_path), tmp_path), 750.0).splitlines()
     assert lines[2:] == [
         "| deposit | 1 | 900 | 100 | 99 |",
         "| all others | 2 | 8 | 100 | 1 |",

@@ -107,12 +107,12 @@ def test_the_covariance_is_the_scatter_of_fits_to_tests_with_a_common_error():
         half = Uncertainty(covariance, (np.inf, np.inf)).half(first.law, OMEGA, TEMPERATURE)
         return half.real / 1.96
 
-    under = first.under(given)
+    under = first.restate(given)
     assert 0.7 < np.mean(size / told(under.covariance)) < 1.4  # 25 draws: 14 %
     assert np.mean(size / told(first.covariance)) > 2.0  # all tests taken as independent
     assert under.std_error["glassy_modulus"] > 2.0 * first.std_error["glassy_modulus"]
     # under the scatter that the fit assumed, its own covariance
-    own = first.under(np.eye(2 * points) * found_scatter(first) ** 2)
+    own = first.restate(np.eye(2 * points) * found_scatter(first) ** 2)
     assert own.covariance == pytest.approx(first.covariance, rel=1e-6, abs=1e-12)
 
 

@@ -50,7 +50,12 @@ def test_what_the_tests_halve_is_theirs_and_what_they_leave_is_the_priors():
         covariance[at, at] = (share * USUAL[name].deviation) ** 2
     one, two = names.index("c1"), names.index("c2")
     covariance[np.ix_([one, two], [one, two])] = USUAL["c2"].deviation ** 2
-    assert ASPHALT_CONCRETE.not_determined(values, covariance, 15.0) == ("glassy_modulus", "k", "c1", "c2")
+    assert ASPHALT_CONCRETE.undetermined_names(values, covariance, 15.0) == (
+        "glassy_modulus",
+        "k",
+        "c1",
+        "c2",
+    )
 
 
 @pytest.mark.parametrize("shift", ["wlf", "arrhenius"])

@@ -26,7 +26,7 @@ def granular_layer(seed=1, friction=0.2) -> GranularBed:
     position, radius = random_lattice(
         np.array([2e-3, 3e-3, 5e-3]), np.array([60, 40, 15]), BOX, np.random.default_rng(seed)
     )
-    return GranularBed.in_box(position, radius, BOX, 2600.0, friction)
+    return GranularBed.spheres_in_box(position, radius, BOX, 2600.0, friction)
 
 
 @pytest.fixture(scope="module")
@@ -91,7 +91,7 @@ def test_grains_that_rain_at_5_m_s_do_not_enter_each_other():
     n, numerics, deepest = flock.radius.size, PouringNumerics.of(flock.radius, 4e-4), 0.0
     settle(flock, numerics, REST_SPEED, 1.0, silent, "pouring")
     high = granular_layer(6)
-    flock = GranularBed.in_box(
+    flock = GranularBed.spheres_in_box(
         np.concatenate([flock.position, high.position + [0.0, 0.0, 0.02]]),
         np.concatenate([flock.radius, high.radius]),
         (BOX[0], BOX[1], 0.1),
@@ -215,7 +215,7 @@ def test_at_rest_forces_balance(layer):
     still, numerics = copy(layer), PouringNumerics.of(layer.radius, 4e-4)
     n = still.radius.size
     assert max(balance(still, numerics, 0.3, silent, "")) < 5e-4
-    weight, unbalanced = still.out_of_balance(4e-4)
+    weight, unbalanced = still.imbalance(4e-4)
     force = -9.81 / still.inverse_mass[:n, None] * [0.0, 0.0, 1.0]
     floor, sizes = 0.0, []
     first = np.repeat(np.arange(n), np.diff(still._start))
@@ -229,7 +229,7 @@ def test_at_rest_forces_balance(layer):
     assert weight == pytest.approx(abs(floor / still.weight() - 1.0), rel=1e-6, abs=1e-12)
     assert unbalanced == pytest.approx(np.linalg.norm(force, axis=1).mean() / np.mean(sizes), rel=1e-9)
     still.impulse *= 0.99
-    assert still.out_of_balance(4e-4)[0] == pytest.approx(0.01, rel=0.1)
+    assert still.imbalance(4e-4)[0] == pytest.approx(0.01, rel=0.1)
 
 
 def test_rain_that_is_not_searched_falls_the_same():
@@ -315,7 +315,7 @@ def test_fixed_spheres_stay_and_bear_a_third():
     """Two of no inverse mass that overlap are no contact: 1/0 made NaN of every motion."""
     radius = np.full(3, 4e-3)
     position = np.array([[0.012, 0.012, 0.004], [0.0195, 0.012, 0.004], [0.01575, 0.012, 0.0115]])
-    bed = GranularBed.in_box(position, radius, (0.03, 0.03, 0.03), 2600.0, 0.5)
+    bed = GranularBed.spheres_in_box(position, radius, (0.03, 0.03, 0.03), 2600.0, 0.5)
     bed.inverse_mass[:2] = 0.0
     numerics = PouringNumerics.of(radius, 4e-4)
     for _ in range(200):

@@ -21,7 +21,7 @@ def balls(
     position, radius=R, box=(1.0, 1.0, 1.0), friction=0.5, restitution=0.0, gravity=(0, 0, -G)
 ) -> GranularBed:
     position = np.atleast_2d(np.asarray(position, float))
-    bed = GranularBed.in_box(
+    bed = GranularBed.spheres_in_box(
         position, np.broadcast_to(radius, len(position)).astype(float), box, 2600.0, friction, restitution
     )
     bed.gravity = np.asarray(gravity, float)

@@ -32,7 +32,9 @@ def march(system, law, dt, name="euler", method="condensed", devices=RIGID, omeg
         model = ReducedModel(system, ritz_basis(system, 12))
         stepper = ReducedStepper(model, law, dt / scheme.a, 1e-6, devices=devices)
     else:
-        stepper = CondensedStepper(system, law, dt / scheme.a, CondensedState.at_rest(system, law), devices)
+        stepper = CondensedStepper(
+            system, law, dt / scheme.a, CondensedState.rest_state(system, law), devices
+        )
     return March(stepper, scheme, law, dt)
 
 

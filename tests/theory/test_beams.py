@@ -61,7 +61,7 @@ def test_hanging_chain(row):
     """Hung up in a Maxwell law it creeps: the lowest body sinks by the sum over the bonds below which it hangs."""
     n, weight, load = 4, 2e-3, 3.0
     system, law = chain(n, weight, 1e-9, load), BondLaw(MODULUS, 1e9, np.array([]), np.array([]))
-    state, dt, steps = CondensedState.at_rest(system, law), 1e-4, 400
+    state, dt, steps = CondensedState.rest_state(system, law), 1e-4, 400
     # next to no inertia, so that the chain creeps and does not swing
     system = replace(system, driven=n - 1, mass=np.append(np.full(n - 1, 1e-9), 1.0))
     stepper = CondensedStepper(system, law, dt, state)
@@ -76,7 +76,7 @@ def test_held_chain(row):
     """Between two supports, each body loaded alike: the head bears its own load and half of the others."""
     n, load, law = 6, 3.0, elastic(MODULUS)
     system = chain(n, 2e-3, 1e-9, load)
-    stepper = CondensedStepper(system, law, 1e-2, CondensedState.at_rest(system, law))
+    stepper = CondensedStepper(system, law, 1e-2, CondensedState.rest_state(system, law))
     expected, force = -load * (n + 1) / 2, [stepper.advance(0.0) for _ in range(3)][-1]
     row("chain between two supports, force of the head (N)", expected, force, 1e-9, "symmetry")
 
@@ -90,7 +90,7 @@ def test_oscillator(row):
         for steps in (400, 800):
             dt = 2 * np.pi / omega / steps
             system, scheme = chain(2, 2e-3, 0.2), Scheme.named(name, 0.0)
-            law, state = elastic(MODULUS), CondensedState.at_rest(chain(2, 2e-3, 0.2), elastic(MODULUS))
+            law, state = elastic(MODULUS), CondensedState.rest_state(chain(2, 2e-3, 0.2), elastic(MODULUS))
             # the bond to the driven body is all but cut: the other bond and the mass swing free of it
             system = replace(system, weight=np.array([1e-30, 1.0, 1.0, 2e-3, 1.0, 1.0]))
             state.velocity[1] = 1.0
@@ -160,7 +160,7 @@ def test_rig_devices(row):
         ("clamp and guide spring", HeadDevices(2e-6, 1e5)),
     ):
         head = driving_force(beam(), QUICK_LAW.discrete_modulus(OMEGA, 0.0), OMEGA)
-        clamp, spring, _, mass = devices.of_head
+        clamp, spring, _, mass = devices.head_constants
         exact = 1 / (clamp + 1 / (head + spring - mass * OMEGA**2))
         run = march(beam(), QUICK_LAW, 2 * np.pi / OMEGA / steps, "fitted", devices=devices)
         found = stiffness(followed(run, sine), steps, 1e-6)

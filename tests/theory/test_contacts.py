@@ -38,7 +38,7 @@ def slide(slope: float, friction: float, steps: int = 40, dt: float = 1e-3) -> n
     # downhill lies between the tangents: a law for each tangent alone would pass along one of them
     gravity = G * np.array([np.sin(slope) * 0.6, np.sin(slope) * 0.8, -np.cos(slope)])
     system, law = block_on_ground(gravity, friction), elastic(1e9)
-    state = CondensedState.at_rest(system, law)
+    state = CondensedState.rest_state(system, law)
     # contacts are bonds that have broken
     state.broken = list(range(4))
     stepper = CondensedStepper(system, law, dt, state)

@@ -65,7 +65,7 @@ def stepper_of(method: str, scheme: Scheme, most_enrichments: int) -> CondensedS
     """
     system, dt = specimen(), DT / scheme.a
     if method == "full":
-        return CondensedStepper(system, QUICK_LAW, dt, CondensedState.at_rest(system, QUICK_LAW))
+        return CondensedStepper(system, QUICK_LAW, dt, CondensedState.rest_state(system, QUICK_LAW))
     shifted = shifted_factor(system)
     basis = ritz_basis(system, 12, shifted)
     stand_by = StandBy.of(system, basis, shifted)

@@ -105,7 +105,7 @@ def test_two_bonds_in_series(row):
     law = BondLaws.of_bonds((LAW, CHAIN), np.array([0, 0]), np.array([0, 1]))
     found = np.zeros(len(STEPS))
     for k, dt in enumerate(STEPS):
-        stepper = CondensedStepper(system, law, dt, CondensedState.at_rest(system, law))
+        stepper = CondensedStepper(system, law, dt, CondensedState.rest_state(system, law))
         for _ in range(round(time / dt)):
             stepper.advance(0.0)
         found[k] = stepper.state.displacement[2]

@@ -77,7 +77,9 @@ def test_gauss_seidel(row):
     expected = followed(march(system, SOFT, 2 * np.pi / OMEGA / steps), sine)
     errors = []
     for tolerance in (1e-5, 1e-7, 1e-9):
-        stepper = SweepingStepper(system, SOFT, dt, CondensedState.at_rest(system, SOFT), tolerance, 100_000)
+        stepper = SweepingStepper(
+            system, SOFT, dt, CondensedState.rest_state(system, SOFT), tolerance, 100_000
+        )
         force = np.array([stepper.advance(v) for v in np.diff(sine, prepend=0.0) / dt])
         errors.append(np.abs(force - expected).max() / np.abs(expected).max())
     rate = np.log10(errors[-2] / errors[-1]) / 2

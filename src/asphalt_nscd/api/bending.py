@@ -17,7 +17,7 @@ from asphalt_nscd.api.results import Result
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told, unsettled
 from asphalt_nscd.bending.case import RunOptions, load_case
-from asphalt_nscd.bending.condensing import condensed, without_effect
+from asphalt_nscd.bending.condensing import condensed, idle_option_note
 from asphalt_nscd.bending.further_settings import Hold
 from asphalt_nscd.bending.hold import coarse
 from asphalt_nscd.bending.hold import hold as of_hold
@@ -239,7 +239,7 @@ def bend(
     test = Test(
         *outcome(_model(_Once(given), bonds), followed, temperature_C, case, numerics, options), given.name
     )
-    doubts = [without_effect(bonds, given.bonded.area), unsettled(test.attributes)]
+    doubts = [idle_option_note(bonds, given.bonded.area), unsettled(test.attributes)]
     if test.broken_bonds:
         doubts.append(damage(test.attributes))
     _warn(doubts)
@@ -300,7 +300,7 @@ def hold(
     law = law if isinstance(law, Law) else Law.read(law)
     lowest, highest = held.band
     table = of_hold(_model(_Once(given), bonds), law.of_bonds(lowest, temperature_C, highest).bonds, held)
-    _warn([without_effect(bonds, given.bonded.area), coarse(table)])
+    _warn([idle_option_note(bonds, given.bonded.area), coarse(table)])
     return table
 
 

@@ -271,7 +271,7 @@ class Diagnosis:
             raise InputError("This diagnosis was read from files; diagnose the measurements again.")
         scatter = None if stated is None else (float(stated[0]), float(stated[1]))
         trials = Trials(scatter, self.content["provenance"]["seed"], processes)
-        return Diagnosis(self.outcome.with_limits(verify(made, trials, progress)))
+        return Diagnosis(self.outcome.add_limits(verify(made, trials, progress)))
 
     def to_json(self, path: str | Path | None = None) -> str:
         """The content of diagnosis.json as text.

@@ -67,7 +67,7 @@ def export(
     # By the ending, for a law is JSON and a result HDF5.
     if isinstance(law, Result) or Path(str(law)).suffix.lower() in (".h5", ".hdf5"):
         return _export_result(law, output, form)
-    card, tested = _of_card(settings), (temperatures_C, frequencies_Hz)
+    card, tested = _card_settings(settings), (temperatures_C, frequencies_Hz)
     require_form(form, Path(output))
     if isinstance(law, str | Path):
         return export_law(read_law_file(law, *tested), card, form, output)
@@ -97,6 +97,6 @@ def _export_result(result: Result | str | Path | Law | Diagnosis, output: str | 
         return export_result(path, form, output)
 
 
-def _of_card(said: ExportSettings) -> Settings:
+def _card_settings(said: ExportSettings) -> Settings:
     """The same as the exports take it."""
     return Settings(Miss(said.error_percent, said.error_deg), said.poisson, UNITS[said.units], said.name)

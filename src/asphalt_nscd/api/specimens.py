@@ -22,7 +22,7 @@ from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.geometry import read_shape
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.core_cache import is_compiled
-from asphalt_nscd.packings.incoming import as_deposit
+from asphalt_nscd.packings.incoming import deposit_content
 from asphalt_nscd.packings.incoming import read_packing as read_spheres
 from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
@@ -391,7 +391,7 @@ def read_packing(path: str | Path, *, unit: str | None = None, up: str = "z") ->
     ...     read_packing(table).radius_m.tolist()
     [0.005, 0.005]
     """
-    (arrays, attributes), notes = as_deposit(read_spheres(path), unit, up)
+    (arrays, attributes), notes = deposit_content(read_spheres(path), unit, up)
     # One text: an attribute of the file is a number or text.
     return Packing(arrays, {**attributes, "notes": "\n".join(notes)}, Path(path).stem)
 

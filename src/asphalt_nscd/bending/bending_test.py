@@ -38,7 +38,7 @@ PROFILE_SAMPLES = 200  # of the mean velocity against height over the last cycle
 
 def bond_law(law: Burgers | KelvinChain) -> BondLaw:
     """Give every bond the macroscopic law, as moduli and viscosities per geometry of the bond (Eqs. 30-33)."""
-    chain = law.as_chain() if isinstance(law, Burgers) else law
+    chain = law.kelvin_form() if isinstance(law, Burgers) else law
     return BondLaw(
         chain.spring, chain.dashpot, np.array(chain.kelvin_springs), np.array(chain.kelvin_dashpots)
     )
@@ -78,7 +78,7 @@ def run_test(
     """
     require_possible(case, numerics, options)
     if case.by_force:
-        return _by_force(model.whole, law, case, numerics, options)
+        return _force_run(model.whole, law, case, numerics, options)
     times, rest = case.times(numerics), numerics.rest_steps
     displacement = case.recorded(times)
     if numerics.method == "harmonic":
@@ -92,7 +92,7 @@ def run_test(
     return Record(times, displacement, force, run.broken, run.residual, run.details, velocity, run.frames)
 
 
-def _by_force(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions) -> Record:
+def _force_run(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions) -> Record:
     """The actuator moves a clamp so soft that it commands the force; what the clamp takes of its motion is left out."""
     clamp = soft_clamp(model, abs(law.discrete_modulus(case.omega, 0.0)))
     # a clamp far softer than the specimen turns its displacement into a force, so that one balance of the
@@ -281,14 +281,14 @@ def _framed(model: Model, times: np.ndarray, frames: Sequence[runs.Frame]) -> di
     """Spheres and bonds as they stand, and in single precision what they do at each time (f,) [s]."""
     n = model.spheres
 
-    def of_spheres(motion: np.ndarray) -> np.ndarray:
+    def sphere_motion(motion: np.ndarray) -> np.ndarray:
         return np.asarray(motion[: 6 * n].reshape(n, 6)[:, :3], np.float32)
 
     return model.shape | {
         "strength_N": model.system.strength,
         "time_s": times,
-        "displacement_m": np.array([of_spheres(frame.displacement) for frame in frames]),
-        "velocity_m_s": np.array([of_spheres(frame.velocity) for frame in frames]),
+        "displacement_m": np.array([sphere_motion(frame.displacement) for frame in frames]),
+        "velocity_m_s": np.array([sphere_motion(frame.velocity) for frame in frames]),
         # Tension is positive; the other two are the shear in the frame of the bond.
         "bond_force_N": np.array(
             [np.float32(frame.reaction.reshape(-1, 3) * [-1.0, 1.0, 1.0]) for frame in frames]

@@ -22,7 +22,7 @@ from asphalt_nscd.specimen.trimming import Specimen
 KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the paper's tests
 
 
-def without_effect(bonds: Bonds, area: str) -> str:
+def idle_option_note(bonds: Bonds, area: str) -> str:
     """A sentence on what was chosen of `bonds` and changes nothing in bonds by this area; empty for none."""
     name, other = ("poisson", "paper") if area == "facets" else ("kt_over_kn", "facets")
     value = getattr(bonds, name)

@@ -86,7 +86,7 @@ def cycle_by_cycle(
     omega = 2.0 * np.pi * frequency
     time_step = 1.0 / (frequency * STEPS_PER_CYCLE)
     scheme = Scheme.named("fitted", omega * time_step)
-    state, march = CondensedState.at_rest(system, bond_law), None
+    state, march = CondensedState.rest_state(system, bond_law), None
     wave = np.exp(-1j * omega * time_step * np.arange(1, STEPS_PER_CYCLE + 1)) * 2.0 / STEPS_PER_CYCLE
     damage, rows = np.zeros(length.size), []
     for cycle in range(MOST_CYCLES):

@@ -16,7 +16,7 @@ from asphalt_nscd.nscd.bonds.head import HeadDevices
 from asphalt_nscd.nscd.bonds.statics import static_stiffness
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
-from asphalt_nscd.rheology.maxwell import of_chain
+from asphalt_nscd.rheology.maxwell import series_of
 
 COARSE = 0.05  # of the law: an error at the end that is told
 MOST_BROKEN = 0.02  # of the bonds; beyond, the specimen no longer follows its law
@@ -31,7 +31,7 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     or, once the full equations go on, more than `MOST_BROKEN` of its bonds break, or so many of its gaps close that
     strains are no longer small.
     """
-    chain = law.as_chain() if isinstance(law, Burgers) else law
+    chain = law.kelvin_form() if isinstance(law, Burgers) else law
     dt, geometry = held.time_step, model.geometry
     times = dt * np.arange(1.0, held.steps + 1.0)
     clamp = 0.0
@@ -46,7 +46,7 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     # a load beyond the strength would break bond after bond, and the contacts of each be solved: minutes
     options = RunOptions(most_broken=MOST_BROKEN)
     try:
-        run = runs.by_path(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, options)
+        run = runs.path_run(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, options)
     except ArithmeticError as error:
         raise InputError(f"{model.name}: {error}; hold less, or for a shorter time.") from None
     table = pd.DataFrame({"time_s": times, "displacement_m": path - clamp * run.force, "force_N": run.force})
@@ -54,7 +54,7 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     if held.force_N is not None:
         table["D_1_GPa"], table["D_law_1_GPa"] = 1e9 / modulus, 1e9 * chain.creep_compliance(times)
     else:
-        table["E_MPa"], table["E_law_MPa"] = modulus / 1e6, of_chain(chain).relaxation_modulus(times) / 1e6
+        table["E_MPa"], table["E_law_MPa"] = modulus / 1e6, series_of(chain).relaxation_modulus(times) / 1e6
     # bonds of one law show that law times a constant of statics, whose motion is column 0 of the basis
     constant = geometry.form_factor() * static_stiffness(model.system, model.basis[:, 0])
     shown = float(table.iloc[-1, 3] / table.iloc[-1, 4])

@@ -81,7 +81,7 @@ class Rig(HeadDevices):
         bool
             True without devices; errors of the channel do not count.
         """
-        return not any(self.of_head)
+        return not any(self.head_constants)
 
     def columns(self) -> dict[str, float]:
         """Values as files and tables name them.

@@ -81,13 +81,13 @@ def reduced(
     one by one.
     """
     if numerics.scheme == "euler" and not (options.energy or options.frames):
-        return by_path(model, law, case.rig, numerics.time_step, case.driven(numerics), options)
+        return path_run(model, law, case.rig, numerics.time_step, case.driven(numerics), options)
     # a two-step scheme is an implicit Euler step of length dt / a from an extrapolated state
     stepper = _reduced_stepper(model.whole, law, numerics.time_step / _scheme(case, numerics).a, case.rig)
     return _certified(stepper, model, _one_by_one(stepper, model.whole, law, (case, numerics), options))
 
 
-def by_path(
+def path_run(
     model: Model | ModelExcerpt,
     law: BondLaw,
     devices: HeadDevices,
@@ -97,7 +97,7 @@ def by_path(
 ) -> Histories:
     """Follow any path of the actuator in one call; `driven` (n,) in m at the ends of steps of `time_step` in s."""
     stepper = _reduced_stepper(model, law, time_step, devices)
-    return _certified(stepper, model, _in_one_call(stepper, model, law, driven, options))
+    return _certified(stepper, model, _run_whole_path(stepper, model, law, driven, options))
 
 
 def _certified(stepper: ReducedStepper, model: Model | ModelExcerpt, run: Histories) -> Histories:
@@ -121,7 +121,7 @@ def condensed(
     """Follow the actuator by the full system, its bonds condensed, with the energy account."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedState
 
-    state = CondensedState.at_rest(model.system, law)
+    state = CondensedState.rest_state(model.system, law)
     dt = numerics.time_step / _scheme(case, numerics).a
     stepper = _full_stepper(model, law, dt, state, case.rig)
     return _one_by_one(stepper, model, law, (case, numerics), options)
@@ -132,7 +132,7 @@ def sweeps(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, optio
     from asphalt_nscd.nscd.stepping.condensed import CondensedState
     from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 
-    state = CondensedState.at_rest(model.system, law)
+    state = CondensedState.rest_state(model.system, law)
     tolerance, most = numerics.tolerance, numerics.most_sweeps
     stepper = SweepingStepper(model.system, law, numerics.time_step, state, tolerance, most)
     run = _follow(stepper, np.concatenate([[0.0], case.driven(numerics)]), model.layers, options)
@@ -165,7 +165,7 @@ def _full_stepper(
     """Steps the full system until the specimen is in two pieces, or fails by the shares of the options."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
 
-    def on_break(broken: Sequence[int]) -> None:
+    def check_broken(broken: Sequence[int]) -> None:
         model.require_whole(broken)
         if len(broken) > options.most_broken * model.bonds:
             raise InputError(
@@ -175,7 +175,7 @@ def _full_stepper(
 
     stepper = CondensedStepper(model.system, law, dt, state, devices, actuator)
 
-    def on_contact(touching: Sequence[int]) -> None:
+    def check_closed(touching: Sequence[int]) -> None:
         # hundreds of contacts at once take half a minute a step
         if len(touching) > options.most_closed * model.bonds:
             raise InputError(
@@ -183,11 +183,11 @@ def _full_stepper(
                 "strains are no longer small: lower the load, or take a stiffer law."
             )
 
-    stepper.on_break, stepper.on_contact = on_break, on_contact
+    stepper.on_break, stepper.on_contact = check_broken, check_closed
     return stepper
 
 
-def _in_one_call(
+def _run_whole_path(
     stepper: ReducedStepper, model: Model | ModelExcerpt, law: BondLaw, driven: Vector, options: RunOptions
 ) -> Histories:
     layers = model.along

@@ -21,7 +21,7 @@ def pour() -> None:
     from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
     from asphalt_nscd.specimen.network import bond_network
 
-    bed = GranularBed.in_box(_POSITION, _RADIUS, (4.2e-3,) * 3, 2600.0, 0.2)
+    bed = GranularBed.spheres_in_box(_POSITION, _RADIUS, (4.2e-3,) * 3, 2600.0, 0.2)
     for _ in range(200):
         bed.advance(PouringNumerics())
     bed.velocity[:8, 2] = -2.0  # a rain has kernels of its own

@@ -24,9 +24,9 @@ def command(
     output: Path = OUTPUT,
 ) -> None:
     """Assemble the bonded system of a specimen and its reduced form. Every test on the specimen uses them."""
-    from asphalt_nscd.bending.condensing import condense, without_effect
+    from asphalt_nscd.bending.condensing import condense, idle_option_note
 
     unknowns, static, area = condense(specimen, bonds, output, excerpt_output, stand_by)
-    if idle := without_effect(bonds, area):
+    if idle := idle_option_note(bonds, area):
         click.echo(f"warning: {idle}", err=True)
     click.echo(f"{output}: {unknowns} unknowns; static |E*| is {static:.4g} of the modulus of the bonds")

@@ -15,7 +15,7 @@ from asphalt_nscd.diagnosis.settings import Draws, Known, Scatter, Simulated
 PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 
 
-def _of_several(context: click.Context, _: click.Parameter, wanted: bool) -> None:
+def _refuse_same_machine(context: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted:
         raise click.UsageError(
             "--same-machine needs several campaigns: asphalt-nscd compare --same-machine FILE FILE ... --output DIR",
@@ -28,7 +28,7 @@ def _of_several(context: click.Context, _: click.Parameter, wanted: bool) -> Non
     is_flag=True,
     hidden=True,
     expose_value=False,
-    callback=_of_several,
+    callback=_refuse_same_machine,
     help="Of several campaigns: see compare.",
 )
 @step

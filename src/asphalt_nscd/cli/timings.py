@@ -15,9 +15,9 @@ def command(
 ) -> None:
     """Sum Snakemake's BENCHMARKS files by rule, which shows where the time goes."""
     from asphalt_nscd.files.store import atomic_path, write_table
-    from asphalt_nscd.reporting.timings import as_markdown, by_rule, elapsed
+    from asphalt_nscd.reporting.timings import elapsed, rule_times, timing_summary
 
-    table = by_rule(benchmarks, folder)
+    table = rule_times(benchmarks, folder)
     write_table(output, table)
     with atomic_path(markdown) as path:
-        path.write_text(as_markdown(table, elapsed(benchmarks)), encoding="utf-8")
+        path.write_text(timing_summary(table, elapsed(benchmarks)), encoding="utf-8")

@@ -28,7 +28,7 @@ from asphalt_nscd.diagnosis.screening import levels, suspects
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.settings import Draws, Simulated
 from asphalt_nscd.diagnosis.simulation import bond_mapping, extension, gain
-from asphalt_nscd.diagnosis.simulation.numerics import of_campaign
+from asphalt_nscd.diagnosis.simulation.numerics import numerical_errors
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.words.summary import answer
 from asphalt_nscd.files.errors import InputError
@@ -58,7 +58,7 @@ class Outcome:
     limits: pd.DataFrame | None = None
     to_report: Mapping[str, pd.DataFrame] = field(default_factory=dict)
 
-    def with_limits(self, table: pd.DataFrame) -> Outcome:
+    def add_limits(self, table: pd.DataFrame) -> Outcome:
         """The same outcome with limits that were verified, a table of `measured_limits.verify`."""
         content = self.content | {"measured_limits": measured_limits.summarised(table)}
         return replace(self, content=content, limits=table)
@@ -127,9 +127,9 @@ def conclude(
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
     progress("Diagnose", 2, STEPS)
-    moduli, phases, own = levels.odd(observed), levels.odd_phases(observed), diagnosis.ladder.of_one_place
+    moduli, phases, own = levels.odd(observed), levels.odd_phases(observed), diagnosis.ladder.confined_faults
     biases = levels.odd_temperatures(observed, moduli, phases)
-    phases, temperatures = levels.with_confined(phases, biases, own)
+    phases, temperatures = levels.merge_confined(phases, biases, own)
     odd = moduli, phases
     doubtful = levels.rows(diagnosis.observed, chain(*odd, temperatures))
     highest = diagnosis.ladder.at_highest
@@ -139,7 +139,7 @@ def conclude(
         doubtful[:] = False  # the rest makes no law
     # law.json is of all temperatures: one isotherm has no shift.
     fit = None if observed.isotherms.size < 2 else extension.material_law(diagnosis, ~doubtful, stated.law)
-    content, before = report.as_json(diagnosis, numerical), None
+    content, before = report.diagnosis_content(diagnosis, numerical), None
     if fit is not None:
         content["law_misses"] = extension.law_misses(diagnosis, fit.law, ~doubtful)
         content["laws"] = extension.compared(diagnosis, fit, ~doubtful)
@@ -154,7 +154,7 @@ def conclude(
         notes.append(OF_THE_PAPER)
     content["reading"] = reading(observed, notes, without_tests)
     if simulated.campaign is not None:
-        content["numerics"]["campaign"] = of_campaign(
+        content["numerics"]["campaign"] = numerical_errors(
             simulated.campaign, observed.temperature, observed.frequency
         )
         before = _begin_with_campaigns(content, diagnosis, numerical, simulated)
@@ -210,7 +210,7 @@ def conclude(
             known = Uncertainty(fit.covariance, reported.freedom_of(diagnosis), form)
         law = fit_content(fit, f"fitted ({origin})", known)
         content["law_parameters"] = law_parameters(law)
-        curve = reported.with_law(curve, fit.law, known)
+        curve = reported.add_law_columns(curve, fit.law, known)
     return Outcome(
         content,
         gain.residual_table(diagnosis, numerical, before),

@@ -19,7 +19,7 @@ from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.files.words import specimen_named, three_digits
-from asphalt_nscd.measurements.tables import averages, the_only
+from asphalt_nscd.measurements.tables import averages, only_file
 
 SCHEMA_VERSION = 3
 DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")
@@ -44,7 +44,7 @@ _SHOWN = {
 
 def read_diagnosis(paths: Sequence[Path]) -> dict[str, Any]:
     """Read the one diagnosis.json and check its version and `DIAGNOSIS_SCHEMA`."""
-    path = the_only(paths, "diagnosis")
+    path = only_file(paths, "diagnosis")
     content = read_json(path)
     version = content.get("schema_version") if isinstance(content, dict) else None
     if version != SCHEMA_VERSION:
@@ -67,7 +67,7 @@ def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
 
     NaN before is a condition that the study did not simulate.
     """
-    table = read_csv(the_only(paths, "residuals"))
+    table = read_csv(only_file(paths, "residuals"))
     table.require(["specimen", *_NUMBERS])
     numbers = {
         name: table.numbers_or_nan(name) if "_before_" in name else table.numbers(name) for name in _NUMBERS
@@ -77,7 +77,7 @@ def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
 
 def read_causality(paths: Sequence[Path]) -> pd.DataFrame:
     """Read the one causality.csv: each test's phase, that which |E*| requires (NaN: not judged), what is suspect."""
-    table = read_csv(the_only(paths, "causality"))
+    table = read_csv(only_file(paths, "causality"))
     required, error = "phase_required_deg", "std_error_deg"
     table.require(["specimen", *_TEST, required, error, "quality_flag", "reasons", "used"])
     return pd.DataFrame(
@@ -123,19 +123,19 @@ def shown(value: float, unit: str) -> tuple[float, str]:
     return factor * value, name
 
 
-def with_interval(value: float, half: float) -> str:
+def interval_text(value: float, half: float) -> str:
     """A value and its interval to the second digit of the interval.
 
-    >>> with_interval(0.739, 1.08), with_interval(3.0, 0.392), with_interval(-227.4, 268.0)
+    >>> interval_text(0.739, 1.08), interval_text(3.0, 0.392), interval_text(-227.4, 268.0)
     ('0.7 +- 1.1', '3.00 +- 0.39', '-230 +- 270')
     """
-    return f"{as_sure(value, half)} +- {as_sure(half, half) if half > 0.0 else 0}"
+    return f"{round_to_interval(value, half)} +- {round_to_interval(half, half) if half > 0.0 else 0}"
 
 
-def as_sure(value: float, half: float) -> str:
+def round_to_interval(value: float, half: float) -> str:
     """A value to the second digit of half of its interval.
 
-    >>> as_sure(0.739, 1.08), as_sure(-227.4, 268.0), as_sure(0.739, 0.0)
+    >>> round_to_interval(0.739, 1.08), round_to_interval(-227.4, 268.0), round_to_interval(0.739, 0.0)
     ('0.7', '-230', '0.739')
     """
     if not half > 0.0:

@@ -17,7 +17,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
-from asphalt_nscd.rheology.maxwell import MaxwellSeries, of_chain
+from asphalt_nscd.rheology.maxwell import MaxwellSeries, series_of
 from asphalt_nscd.rheology.maxwell_fitting import Miss, fit_series, miss
 from asphalt_nscd.rheology.spectrum_io import student
 
@@ -36,7 +36,7 @@ class Units:
     stress: str
     pascals: float
 
-    def of(self, modulus: float) -> float:
+    def express(self, modulus: float) -> float:
         """A modulus [Pa] in the unit `stress`."""
         return modulus / self.pascals
 
@@ -83,7 +83,7 @@ class Card:
         if series == self.series:
             return self
         return replace(
-            self, series=series, error=miss(series, self.law.at_reference, *self.law.reduced_band())
+            self, series=series, error=miss(series, self.law.reference_modulus, *self.law.reduced_band())
         )
 
     @property
@@ -98,7 +98,7 @@ class Card:
             return None
         omega = np.geomspace(*low_high, 20 * len(self.series.times) + 20)
         turned = 1j * omega[:, None] * np.array(self.series.times)
-        modulus = self.law.at_reference(omega)
+        modulus = self.law.reference_modulus(omega)
         branches = np.hstack([np.ones((omega.size, 1)), turned / (1.0 + turned)]) / modulus[:, None]
         slopes = self.law.law.log_slopes(omega, np.full(omega.size, self.law.temperature))  # type: ignore[union-attr]
         system, moved = (np.concatenate([part.real, part.imag]) for part in (branches, slopes))
@@ -174,7 +174,7 @@ class Card:
         band, moduli = self.law.half_widths(np.geomspace(low, high, 30)), self.half_widths
         if band is None or moduli is None:
             return []
-        sizes = ", ".join(f"{self.settings.units.of(half):.3g}" for half in moduli)
+        sizes = ", ".join(f"{self.settings.units.express(half):.3g}" for half in moduli)
         return [
             "Behind a parameter: its 95 % interval.",
             f"95 % interval of the law in the band: {100.0 * np.expm1(band.real.min()):.2g} to "
@@ -192,7 +192,7 @@ class Card:
         return f"The law itself is {100.0 * rms:.2g} % (root mean square of |ln E*|) from the tests it was fitted to."
 
     def _modulus(self, modulus: float) -> str:
-        return f"{self.settings.units.of(modulus):.6g} {self.settings.units.stress}"
+        return f"{self.settings.units.express(modulus):.6g} {self.settings.units.stress}"
 
     def _limits(self) -> str:
         """Why the limits of the series are not those of the law."""
@@ -231,17 +231,17 @@ def make_card(law: ExportedLaw, settings: Settings) -> Card:
     Refuses a law that does not relax over its band, and an error that cannot be met.
     """
     low, high = law.reduced_band()
-    chain = law.law.as_chain() if isinstance(law.law, Burgers) else law.law
+    chain = law.law.kelvin_form() if isinstance(law.law, Burgers) else law.law
     # Without a spring in series the instantaneous modulus has no end, nor has a series of this kind.
     if isinstance(chain, KelvinChain) and chain.spring < float("inf"):
-        series = of_chain(chain)
+        series = series_of(chain)
         if not series.moduli:
             raise InputError(
                 f"{law.path}: this law is a single spring and does not relax; enter its modulus by hand."
             )
-        return Card(law, settings, series, miss(series, law.at_reference, low, high), exact=True)
+        return Card(law, settings, series, miss(series, law.reference_modulus, low, high), exact=True)
     try:
-        series, error = fit_series(law.at_reference, low, high, settings.allowed)
+        series, error = fit_series(law.reference_modulus, low, high, settings.allowed)
     except InputError as refusal:
         raise InputError(f"{law.path}: {refusal}") from None
     if not series.moduli:

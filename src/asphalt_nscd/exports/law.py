@@ -90,7 +90,7 @@ class ExportedLaw:
             return ""
         return f"The tests hardly determine {', '.join(found)}: do not trust the law beyond them."
 
-    def at_reference(self, omega: Vector) -> Complex:
+    def reference_modulus(self, omega: Vector) -> Complex:
         """E* (n,) [Pa] at `temperature` and angular frequencies `omega` (n,) [rad/s]."""
         if self.shift is None:
             return self.law.complex_modulus(omega)  # type: ignore[call-arg]
@@ -128,16 +128,16 @@ class ExportedLaw:
         """
         if not isinstance(self.shift, Arrhenius):
             return self.shift
-        return as_wlf(self.shift)
+        return wlf_of(self.shift)
 
 
-def as_wlf(shift: Arrhenius) -> WLF:
+def wlf_of(shift: Arrhenius) -> WLF:
     """WLF constants of an Arrhenius shift, the same at all temperatures: C1 = E_a / (ln(10) R T0), C2 = T0 [K].
 
     Both shifts have the same reference temperature T0.
 
     >>> arrhenius = Arrhenius(activation_energy=200e3, reference_temperature=15.0)
-    >>> (as_wlf(arrhenius).factor([-20, 40]) / arrhenius.factor([-20, 40])).round(12).tolist()
+    >>> (wlf_of(arrhenius).factor([-20, 40]) / arrhenius.factor([-20, 40])).round(12).tolist()
     [1.0, 1.0]
     """
     # WLF with C2 = T0 in kelvin is Arrhenius: C2 + T - T0 is then T, and the same fraction remains.

@@ -19,7 +19,7 @@ WHOLE = 64  # characters of a digest that was written to its end
 
 def forget(path: Path) -> bool:
     """Remove the digest of a file that is about to be replaced, which may be another user's; whether there was one."""
-    beside = _beside(path)
+    beside = _digest_file(path)
     standing = beside.exists()
     beside.unlink(missing_ok=True)
     return standing
@@ -29,20 +29,20 @@ def keep(path: Path, standing: bool) -> None:
     """Write down the digest of a result; of other files only where one stood, since a step was repeated by hand."""
     # HDF5 files hold their digest inside.
     if standing or (is_result(path) and path.suffix != ".h5"):
-        _beside(path).write_text(_digest(path) + "\n")
+        _digest_file(path).write_text(_digest(path) + "\n")
 
 
 def require_unchanged(arguments: Iterable[str]) -> None:
     """Refuse a result among the arguments of a step (`path` or `kind=path`) that differs from its digest."""
     for argument in arguments:
         path = Path(argument.rpartition("=")[2])
-        if is_result(path) and is_file(path) and is_file(_beside(path)):
-            kept = _beside(path).read_bytes().strip()
+        if is_result(path) and is_file(path) and is_file(_digest_file(path)):
+            kept = _digest_file(path).read_bytes().strip()
             if len(kept) == WHOLE and kept != _digest(path).encode():
                 raise DamagedFile(
                     path,
                     "damaged, or edited after the workflow wrote it (to keep an edit, put the edited file back and "
-                    f"delete {_beside(path).name})",
+                    f"delete {_digest_file(path).name})",
                 )
 
 
@@ -66,7 +66,7 @@ def set_aside(error: DamagedFile) -> str:
     return f"{error.path}: {error.problem}; it was set aside as {aside.name}, run the workflow again to make it anew."
 
 
-def _beside(path: Path) -> Path:
+def _digest_file(path: Path) -> Path:
     return path.with_name(f".{path.name}{SUFFIX}")
 
 

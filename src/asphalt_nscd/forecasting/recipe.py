@@ -204,7 +204,7 @@ def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
 
 def _binder(content: Mapping[str, Any], path: str | Path) -> tuple[Spectrum, bool]:
     if "table" in content:
-        return _from_rheometer(Path(path).parent / content["table"], content["poisson"]), True
+        return _fit_rheometer(Path(path).parent / content["table"], content["poisson"]), True
     reference = content.get("reference_temperature_C", UNSTATED)
     shift: WLF | Arrhenius = Arrhenius(150e3, reference)  # never asked for another temperature
     if "shift" in content:
@@ -229,7 +229,7 @@ def _binder(content: Mapping[str, Any], path: str | Path) -> tuple[Spectrum, boo
     return TwoS2P1D(**values, shift=shift), "shift" in content
 
 
-def _from_rheometer(path: Path, poisson: float) -> Spectrum:
+def _fit_rheometer(path: Path, poisson: float) -> Spectrum:
     """2S2P1D law with a WLF shift of Young's modulus, E = 2 (1 + nu) G, fitted to a table."""
     table = read_csv(path)
     table.require(["temperature_C", "frequency_Hz", "G_MPa", "phase_deg"])

@@ -24,7 +24,7 @@ def mori_tanaka(recipe: Recipe) -> np.ndarray:
 
 def self_consistent(recipe: Recipe) -> np.ndarray:
     """E* (n,) [Pa]: grains of each level and its matrix as spheres in the level itself (Hill 1965)."""
-    return _levels(recipe, _in_itself)
+    return _levels(recipe, _self_consistent_moduli)
 
 
 def hirsch(recipe: Recipe) -> np.ndarray:
@@ -102,7 +102,7 @@ def _dilute_in_matrix(
     return mixed_bulk, mixed_shear
 
 
-def _in_itself(
+def _self_consistent_moduli(
     bulk: np.ndarray, shear: np.ndarray, other_bulk: float, other_shear: float, fraction: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Spheres of both phases in the mixture that they make, by iteration from the matrix."""

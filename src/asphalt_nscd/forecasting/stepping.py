@@ -131,7 +131,7 @@ def step_test(
     # the fitted scheme has no error of the time step in steady oscillation: a few steps a cycle are enough
     time_step = 1.0 / (frequency * steps_per_cycle)
     scheme = Scheme.named("fitted", 2.0 * np.pi / steps_per_cycle)
-    state = CondensedState.at_rest(bonds.system, bonds.laws)
+    state = CondensedState.rest_state(bonds.system, bonds.laws)
     stepper = CondensedStepper(bonds.system, bonds.laws, time_step / scheme.a, state)
     march = March(stepper, scheme, bonds.laws, time_step)
     time = time_step * np.arange(1, cycles * steps_per_cycle + 1)

@@ -74,7 +74,7 @@ def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDAr
     return nominal
 
 
-def with_sweeps_apart(nominal: NDArray[np.float64], specimen: NDArray) -> NDArray[np.float64]:
+def separate_sweeps(nominal: NDArray[np.float64], specimen: NDArray) -> NDArray[np.float64]:
     """Isotherms (n,) [degC], where a sweep that one specimen alone has is put to the one that it lacks.
 
     Their temperatures are less than TARGETS_APART from each other, and the specimens have two more in common: the

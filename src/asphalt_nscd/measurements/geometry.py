@@ -43,9 +43,9 @@ def read_shape(source: str | Path | Mapping[str, Any]) -> Shape:
     trapezoid in two-point bending.
     """
     if isinstance(source, Mapping):
-        return _from_mapping(source, "geometry")
+        return _parse_shape(source, "geometry")
     if Path(source).suffix.lower() == ".json":
-        return _from_mapping(read_json(source), str(source))
+        return _parse_shape(read_json(source), str(source))
     return read_geometry(source, ["specimen"])["specimen"]
 
 
@@ -60,7 +60,7 @@ def read_geometry(source: str | Path | Mapping[str, Any], specimens: Iterable[st
         return dict.fromkeys(specimens, _trapezoid(source, "geometry"))
     if Path(source).suffix.lower() == ".json":
         return dict.fromkeys(specimens, _trapezoid(read_json(source), str(source)))
-    known = _from_table(source)
+    known = _read_geometries(source)
     for specimen in specimens:
         if specimen not in known:
             raise InputError(
@@ -94,7 +94,7 @@ def require_joined(shape: Shape, area: str) -> None:
         )
 
 
-def _from_table(path: str | Path) -> dict[str, Geometry]:
+def _read_geometries(path: str | Path) -> dict[str, Geometry]:
     table = read_csv(path)
     table.require(["specimen", *LIMITS])
     values = {name: table.numbers(name, limits) for name, limits in LIMITS.items()}
@@ -110,12 +110,12 @@ def _from_table(path: str | Path) -> dict[str, Geometry]:
 
 
 def _trapezoid(mapping: Any, name: str) -> Geometry:
-    shape = _from_mapping(mapping, name, Geometry)
+    shape = _parse_shape(mapping, name, Geometry)
     assert isinstance(shape, Geometry)
     return shape
 
 
-def _from_mapping(mapping: Any, name: str, kind: type[Shape] | None = None) -> Shape:
+def _parse_shape(mapping: Any, name: str, kind: type[Shape] | None = None) -> Shape:
     """Of one kind, or of that whose first key the mapping has."""
     if not isinstance(mapping, Mapping):
         raise InputError(f"{name}: not a mapping; give {', '.join((kind or Geometry).limits)}.")

@@ -169,7 +169,7 @@ def _reduce_peaks(table: Table, frame: pd.DataFrame, specimens: dict[str, twopoi
         modulus = twopoint.complex_modulus(
             specimens[specimen], part["frequency_Hz"], part["F0_N"], part["z0_m"], np.radians(part["psi_deg"])
         )
-        frame.loc[rows, "E_MPa"], frame.loc[rows, "phase_deg"] = _in_table_units(modulus)
+        frame.loc[rows, "E_MPa"], frame.loc[rows, "phase_deg"] = _table_values(modulus)
 
 
 def _reduce_records(
@@ -200,12 +200,12 @@ def _reduce_records(
                 response.displacement_amplitude,
                 response.phase,
             )
-            values.extend(_in_table_units(modulus))
+            values.extend(_table_values(modulus))
         reduced.append(values)
     frame[list(OF_RECORDS)] = np.array(reduced)
 
 
-def _in_table_units(modulus: NDArray[np.complex128]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _table_values(modulus: NDArray[np.complex128]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     norm, phase = twopoint.norm_and_phase(modulus)
     return norm * 1e-6, np.degrees(phase)
 

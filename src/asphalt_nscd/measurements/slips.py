@@ -106,7 +106,7 @@ def _radians(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
-    logarithm = _by_condition(table)
+    logarithm = _pivot_conditions(table)
     if logarithm.shape[1] < 2:
         return
     # Without the specimen itself: of two or three its own slip would draw the median along.
@@ -129,7 +129,7 @@ def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
 
 def _warmer_but_stiffer(table: pd.DataFrame) -> Iterator[str]:
     """Isotherms at which every specimen is stiffer than at a colder one, at every frequency."""
-    logarithm = _by_condition(table)
+    logarithm = _pivot_conditions(table)
     isotherms = logarithm.index.unique(level=0)
     for cold in isotherms:
         for warm in isotherms[isotherms >= cold + LEAST_STEP]:
@@ -151,7 +151,7 @@ def _warmer_but_stiffer(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
-    for specimen, logarithm in _by_condition(table).items():
+    for specimen, logarithm in _pivot_conditions(table).items():
         rows = logarithm.dropna().unstack(level=0)
         for cold in rows:
             for warm in rows.columns[rows.columns >= cold + LEAST_STEP]:
@@ -173,7 +173,7 @@ def _unit_of_all_moduli(table: pd.DataFrame) -> Iterator[str]:
         required = 90.0 * slope  # deg, by Kramers and Kronig: it knows no unit, and no offset of the phase
         seen = max(phase, required)
         agree = slope > LEAST_SLOPE and 0.6 < phase / required < 1.6
-        if temperature > COLD or seen > PHASE_SEEN or not agree or not _on_cold_side(tests):
+        if temperature > COLD or seen > PHASE_SEEN or not agree or not _is_cold_side(tests):
             continue
         modulus = float(tests["E_MPa"].median())
         glassy.append(modulus * np.exp(FALL * seen))
@@ -213,7 +213,7 @@ def _possible(table: pd.DataFrame, share: float) -> bool:
     return bool(modulus.between(least, most).mean() >= share) and not any(_unit_of_all_moduli(table))
 
 
-def _on_cold_side(tests: pd.DataFrame) -> bool:
+def _is_cold_side(tests: pd.DataFrame) -> bool:
     """Whether a sweep is smooth and the phase falls as the frequency rises; |E*| bends as much if a delay hides it."""
     logarithm, modulus = np.log(tests["frequency_Hz"]), np.log(tests["E_MPa"])
     parabola = np.polyfit(logarithm, modulus, 2)
@@ -230,7 +230,7 @@ def _sweeps(table: pd.DataFrame) -> Iterator[tuple[str, float, float, float]]:
             yield str(specimen), float(temperature), float(slope), float(tests["phase_deg"].median())
 
 
-def _by_condition(table: pd.DataFrame) -> pd.DataFrame:
+def _pivot_conditions(table: pd.DataFrame) -> pd.DataFrame:
     """ln |E*|: a row for each temperature and frequency, a column for each specimen."""
     logarithm = table.assign(logarithm=np.log(table["E_MPa"]))
     return logarithm.pivot_table(

@@ -50,7 +50,7 @@ def averages(frame: pd.DataFrame, by: Sequence[str] = KEYS, columns: Sequence[st
     return groups.mean().join(spread).join(groups.size().rename("count")).reset_index()
 
 
-def at_temperature(frame: pd.DataFrame, temperature: float) -> pd.DataFrame:
+def isotherm_rows(frame: pd.DataFrame, temperature: float) -> pd.DataFrame:
     """Rows of one temperature [degC]; refuses a table that has none."""
     rows = frame[np.abs(frame["temperature_C"] - temperature) < SAME_TEMPERATURE]
     if rows.empty:
@@ -59,7 +59,7 @@ def at_temperature(frame: pd.DataFrame, temperature: float) -> pd.DataFrame:
     return rows
 
 
-def the_only(paths: Iterable[str | Path], kind: str) -> Path:
+def only_file(paths: Iterable[str | Path], kind: str) -> Path:
     """The single path given for a `kind` of data; InputError for none or several."""
     paths = list(paths)
     if len(paths) != 1:

@@ -86,7 +86,7 @@ def _row(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, *place: ir.
     return builder.gep(array.data, [at])
 
 
-def _as_lanes(builder: ir.IRBuilder, pointer: ir.Value) -> ir.Value:
+def _lane_pointer(builder: ir.IRBuilder, pointer: ir.Value) -> ir.Value:
     return builder.bitcast(pointer, _lanes.vector.as_pointer())
 
 
@@ -98,7 +98,7 @@ def _rows(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -
     for lane in range(WIDTH):
         row = builder.load(builder.gep(first, [_PLACE(lane)]))
         row = builder.sext(row, arguments[2].type)
-        found.append(_as_lanes(builder, _row(context, builder, kind, arguments[0], row)))
+        found.append(_lane_pointer(builder, _row(context, builder, kind, arguments[0], row)))
     return found
 
 
@@ -163,7 +163,7 @@ def select_greater(typing_context: Any, a: Any, b: Any, then: Any, otherwise: An
 
 
 @intrinsic
-def above(typing_context: Any, a: Any, b: Any) -> Any:
+def greater_bits(typing_context: Any, a: Any, b: Any) -> Any:
     """An int64 (0 to 255) of which bit k is set if a > b in lane k."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
@@ -179,7 +179,7 @@ def load(typing_context: Any, array: Any, block: Any, row: Any) -> Any:
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments)
-        return builder.load(_as_lanes(builder, at), align=ALIGNMENT)
+        return builder.load(_lane_pointer(builder, at), align=ALIGNMENT)
 
     return _lanes(array, types.intp, types.intp), code
 
@@ -190,7 +190,7 @@ def store(typing_context: Any, array: Any, block: Any, row: Any, value: Any) -> 
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments[:3])
-        builder.store(arguments[3], _as_lanes(builder, at), align=ALIGNMENT)
+        builder.store(arguments[3], _lane_pointer(builder, at), align=ALIGNMENT)
         return context.get_dummy_value()
 
     return types.void(array, types.intp, types.intp, _lanes), code

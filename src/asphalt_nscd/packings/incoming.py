@@ -34,7 +34,7 @@ def read_packing(path: str | Path) -> Spheres:
     return read_text(path)
 
 
-def as_deposit(spheres: Spheres, unit: str | None = None, up: str = "z") -> tuple[Content, list[str]]:
+def deposit_content(spheres: Spheres, unit: str | None = None, up: str = "z") -> tuple[Content, list[str]]:
     """Arrays and attributes of a deposit file made of a packing, and sentences on what was read.
 
     The longer horizontal side becomes x, the length of the box; the box is as large as the spheres are. `unit` is that
@@ -42,7 +42,7 @@ def as_deposit(spheres: Spheres, unit: str | None = None, up: str = "z") -> tupl
     """
     if up not in UP:
         raise InputError(f"up {up!r} is no axis; give one of {', '.join(UP)}.")
-    metric, said = spheres.in_metres(unit)
+    metric, said = spheres.convert_to_metres(unit)
     notes = [*spheres.notes, said]
     if metric.radius.size < 2:
         raise InputError(f"{spheres.path}: holds one sphere alone; give the whole packing.")

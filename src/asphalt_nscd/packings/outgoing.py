@@ -109,7 +109,7 @@ def _series(record: Record, output: Path) -> str:
     def instant(k: int) -> tuple[_Drawn, _Drawn]:
         own = {name: kept[name][k] for name in ("displacement_m", "velocity_m_s")}
         spheres = kept["position_m"], {"radius_m": kept["radius_m"], **own}
-        return spheres, (place, {}, lines, _of_bonds(kept, k) | {"plate": plate})
+        return spheres, (place, {}, lines, _bond_loads(kept, k) | {"plate": plate})
 
     return f"{_filmed(output, kept, instant)}; displacements in m, forces in N."
 
@@ -126,7 +126,7 @@ def _fall(record: Record, form: str, output: Path) -> str:
     def instant(k: int) -> tuple[_Drawn, _Drawn]:
         place, left = kept["position_m"] + kept["displacement_m"][k], ~kept["broken"][k]
         own = {name: kept[name][k] for name in ("velocity_m_s", "fragment")}
-        bonds = {name: values[left] for name, values in _of_bonds(kept, k).items()}
+        bonds = {name: values[left] for name, values in _bond_loads(kept, k).items()}
         return (place, {"radius_m": kept["radius_m"], **own}), (place, {}, ends[left], bonds)
 
     return f"{_filmed(output, kept, instant)}; velocities in m/s, forces in N."
@@ -140,7 +140,7 @@ def _kept(record: Record) -> dict[str, NDArray[Any]]:
     return {name.removeprefix(FRAMES): a for name, a in record.arrays.items() if name.startswith(FRAMES)}
 
 
-def _of_bonds(kept: dict[str, NDArray[Any]], k: int) -> dict[str, NDArray[Any]]:
+def _bond_loads(kept: dict[str, NDArray[Any]], k: int) -> dict[str, NDArray[Any]]:
     """What bonds (b,) bear at an instant."""
     force = kept["bond_force_N"][k]
     return {

@@ -36,7 +36,7 @@ class Spheres:
         if self.radius.size > MOST:
             raise InputError(f"{self.path}: {self.radius.size} spheres; give at most {MOST}.")
 
-    def in_metres(self, stated: str | None) -> tuple[Spheres, str]:
+    def convert_to_metres(self, stated: str | None) -> tuple[Spheres, str]:
         """The same spheres in m, and a sentence on the unit.
 
         `stated` is the unit that the user gives; if None it is that of the file, or the one that fits radii of

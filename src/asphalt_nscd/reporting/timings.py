@@ -11,7 +11,7 @@ import pandas as pd
 from asphalt_nscd.files.errors import InputError
 
 
-def by_rule(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFrame:
+def rule_times(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFrame:
     """One row for each rule, most time first.
 
     benchmarks: files in `folder`, rule.tsv for a single job, rule/.../*.tsv for many; those of jobs that
@@ -65,7 +65,7 @@ def _number(text: str) -> float:
     return float("nan") if text in ("-", "NA") else float(text)
 
 
-def as_markdown(table: pd.DataFrame, elapsed_s: float) -> str:
+def timing_summary(table: pd.DataFrame, elapsed_s: float) -> str:
     """The rules that take a twentieth of the time or more, the others in one line, the sum, and how long it took."""
     long = table["share_percent"] >= 5.0
     lines = [

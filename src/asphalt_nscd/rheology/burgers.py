@@ -41,7 +41,7 @@ class Burgers:
                     f"Burgers law: {field.name} = {value:g} must be {PARAMETERS}; give Pa or Pa s."
                 )
 
-    def as_chain(self) -> KelvinChain:
+    def kelvin_form(self) -> KelvinChain:
         """The same law as a Kelvin chain of one element, without approximation."""
         return KelvinChain(self.modulus_m, self.viscosity_m, (self.modulus_k,), (self.viscosity_k,))
 
@@ -60,7 +60,7 @@ class Burgers:
 
     def creep_compliance(self, time: ArrayLike) -> NDArray[np.float64]:
         """Strain per unit of constant stress, D(t) [1/Pa], at times after loading [s]."""
-        return self.as_chain().creep_compliance(time)
+        return self.kelvin_form().creep_compliance(time)
 
     def relaxation_modulus(self, time: ArrayLike) -> NDArray[np.float64]:
         """Stress per unit of constant strain, E(t) [Pa], at times after loading [s].

@@ -11,7 +11,7 @@ import pandas as pd
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_json
 from asphalt_nscd.measurements.reduction import read_reduced
-from asphalt_nscd.measurements.tables import at_temperature
+from asphalt_nscd.measurements.tables import isotherm_rows
 from asphalt_nscd.rheology.fitting import fit_burgers
 from asphalt_nscd.rheology.laws_io import law_content
 
@@ -26,7 +26,7 @@ def fit_temperature(measured: str | Path, temperature: float, output: str | Path
 def burgers_at(frame: pd.DataFrame, temperature: float, name: str) -> dict[str, Any]:
     """Content of the file of the Burgers law fitted to one temperature [degC]; `name` is for a refusal."""
     try:
-        points = at_temperature(frame, temperature)
+        points = isotherm_rows(frame, temperature)
         modulus = points["E_MPa"] * 1e6 * np.exp(1j * np.radians(points["phase_deg"]))
         fit = fit_burgers(2.0 * np.pi * points["frequency_Hz"].to_numpy(), modulus.to_numpy())
     except InputError as error:

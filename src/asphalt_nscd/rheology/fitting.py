@@ -47,7 +47,7 @@ class Fit(Generic[Law]):
     response: NDArray | None = None
     of_prior: NDArray | None = None
 
-    def under(self, points: NDArray) -> Fit[Law]:
+    def restate(self, points: NDArray) -> Fit[Law]:
         """The same law, with the standard errors that follow from another covariance of the points.
 
         `points` (2n, 2n) is that of ln|E*|, then of the phase.

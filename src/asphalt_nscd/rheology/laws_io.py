@@ -85,7 +85,7 @@ def chain_content(
         "law": "kelvin_chain",
         "source": source,
         "temperature_C": float(temperature),
-        **{key: _or_none(getattr(chain, name)) for name, key in _CHAIN_KEYS.items()},
+        **{key: _null_if_infinite(getattr(chain, name)) for name, key in _CHAIN_KEYS.items()},
         **{key: list(getattr(chain, name)) for name, key in _ELEMENT_KEYS.items()},
         "largest_log_error": float(error),
         "lowest_Hz": float(lowest_hz),
@@ -156,7 +156,7 @@ def renamed(values: dict[str, float], keys: dict[str, str]) -> dict[str, float]:
     return {keys[name]: float(value) for name, value in values.items()}
 
 
-def _or_none(value: float) -> float | None:
+def _null_if_infinite(value: float) -> float | None:
     # JSON has no infinity: an absent part is null.
     return None if math.isinf(value) else value
 

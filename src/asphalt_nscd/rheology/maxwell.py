@@ -66,7 +66,7 @@ class MaxwellSeries:
         return self.long_term + (np.asarray(self.moduli) * decay).sum(axis=-1)
 
 
-def of_chain(chain: KelvinChain) -> MaxwellSeries:
+def series_of(chain: KelvinChain) -> MaxwellSeries:
     """A Kelvin chain as a generalised Maxwell model, without approximation.
 
     The relaxation rates r are the zeros of the compliance on the negative axis, D(-r) = 0; one lies between each pair

@@ -30,7 +30,7 @@ class Miss:
     percent: float
     degrees: float
 
-    def within(self, allowed: Miss) -> bool:
+    def is_within(self, allowed: Miss) -> bool:
         """Whether neither error is larger than the one allowed."""
         return self.percent <= allowed.percent and self.degrees <= allowed.degrees
 
@@ -66,7 +66,7 @@ def fit_series(
         tries = [_spaced(omega, target, terms, reach, allowed) for reach in REACH]
         starts[terms] = min(tries, key=lambda series: _size(_miss_of(series, tested, dense), allowed))
         error = _miss_of(starts[terms], tested, dense)
-        if error.within(allowed):
+        if error.is_within(allowed):
             found = starts[terms], error
             break
     if found is None:
@@ -81,7 +81,7 @@ def fit_series(
         for start in (starts[terms], _merged(found[0], terms)):
             series = _refined(start, omega, target, allowed)
             error = _miss_of(series, tested, dense)
-            if error.within(allowed):
+            if error.is_within(allowed):
                 found = series, error
                 break
         else:

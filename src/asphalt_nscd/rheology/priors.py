@@ -108,7 +108,7 @@ class Prior:
         usual = self.usual.get(name)
         return 0.0 if usual is None else usual.median * float(np.exp(10.0 * usual.deviation))
 
-    def not_determined(
+    def undetermined_names(
         self, values: Mapping[str, float], covariance: NDArray[np.float64], reference_temperature: float
     ) -> tuple[str, ...]:
         """Parameters that the tests do not narrow: posterior over prior deviation above FROM_PRIOR.

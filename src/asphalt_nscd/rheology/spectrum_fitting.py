@@ -227,7 +227,7 @@ class _Problem:
                 name: float(error) for name, error in zip(at.names, errors, strict=True) if name not in unseen
             }
             if self.prior is not None:
-                from_prior = self.prior.not_determined(values, covariance, at.reference)
+                from_prior = self.prior.undetermined_names(values, covariance, at.reference)
         ratio = log_residual(self.modulus, law.complex_modulus(self.omega, self.temperature))
         return Fit(
             law,

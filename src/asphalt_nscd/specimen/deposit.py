@@ -76,7 +76,7 @@ def balance(
     """Advance the bed in place with tight sweeps until forces are in equilibrium, at most `longest` [s].
 
     Sweeps follow REST_TOLERANCE and REST_SWEEPS; `progress` is in seconds of the bed. Returns the two of
-    `GranularBed.out_of_balance`, below UNBALANCED unless `longest` ended it.
+    `GranularBed.imbalance`, below UNBALANCED unless `longest` ended it.
     """
     tight = replace(numerics, tolerance=REST_TOLERANCE, most_sweeps=REST_SWEEPS)
     began = bed.time
@@ -85,7 +85,7 @@ def balance(
     while bed.time - began < longest and max(found) > UNBALANCED:
         for _ in range(check):
             bed.advance(tight)
-        found = bed.out_of_balance(tight.time_step)
+        found = bed.imbalance(tight.time_step)
         progress(stage, min(bed.time - began, longest), longest)
     return found
 

@@ -9,7 +9,7 @@ import numpy as np
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.lanes import WIDTH
 from asphalt_nscd.nscd.spheres import granular, neighbours
-from asphalt_nscd.nscd.spheres.blocks import in_blocks
+from asphalt_nscd.nscd.spheres.blocks import deal_blocks
 from asphalt_nscd.nscd.spheres.slabs import Slabs, Workspace, slabs_of, workspace_for
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.trimming import layer_height
@@ -123,7 +123,7 @@ class GranularBed:
         self._plane_reach = np.empty(0)  # (p,) m
 
     @classmethod
-    def in_box(
+    def spheres_in_box(
         cls,
         position: np.ndarray,
         radius: np.ndarray,
@@ -280,7 +280,7 @@ class GranularBed:
             self._workspace = workspace_for(0, self.inverse_mass.size, len(self.plane_point))
         last_body = self.inverse_mass.size - 1
         begin, pair, bodies = slabs_of(self.team, self.position[: start.size - 1], start, other, last_body)
-        self._slabs, self._workspace = in_blocks(self.team, begin, pair, bodies, self._workspace)
+        self._slabs, self._workspace = deal_blocks(self.team, begin, pair, bodies, self._workspace)
 
     @property
     def impulse(self) -> np.ndarray:
@@ -347,7 +347,7 @@ class GranularBed:
         pair = self._slabs.pair[WIDTH * begin : WIDTH * end][pushed]
         return np.sort(np.searchsorted(self._start, pair, side="right") - 1)
 
-    def out_of_balance(self, time_step: float) -> tuple[float, float]:
+    def imbalance(self, time_step: float) -> tuple[float, float]:
         """How far the forces of the last step, `time_step` [s] long, are from equilibrium; both near zero at rest.
 
         First, by what fraction the force on all planes differs from the weight; second, the mean resultant on a sphere,

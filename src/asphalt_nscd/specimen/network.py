@@ -95,7 +95,7 @@ def facet_network(position: np.ndarray, radius: np.ndarray, shape: Shape) -> Net
         own = np.flatnonzero(between == number)
         if not own.size:
             continue
-        facets = power_diagram(position[own], radius[own], _between(shape, plates[below], plates[above]))
+        facets = power_diagram(position[own], radius[own], _segment(shape, plates[below], plates[above]))
         cell[own] = facets.cells(position[own])
         bonded = facets.second < own.size + 2  # the other faces are free
         first = own[facets.first[bonded]]
@@ -119,7 +119,7 @@ def region_of(shape: Shape) -> Region:
     return Region(*shape.faces(), np.array([0.0, 0.0, shape.h / 2.0]))
 
 
-def _between(shape: Shape, below: Plate, above: Plate) -> Region:
+def _segment(shape: Shape, below: Plate, above: Plate) -> Region:
     """The part of a specimen between two of its plates: the upper plane, the lower one, then the free faces."""
     normal, offset = shape.faces()
     offset[:2] = above.height, 0.0 - below.height

@@ -92,7 +92,7 @@ def pour_on(
 
 def _bed(position: np.ndarray, radius: np.ndarray, pouring: Pouring) -> GranularBed:
     surfaces = pouring.surfaces
-    return GranularBed.in_box(
+    return GranularBed.spheres_in_box(
         position,
         radius,
         pouring.box,

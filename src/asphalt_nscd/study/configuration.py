@@ -56,7 +56,7 @@ def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -
     errors = [
         part
         for error in Draft202012Validator(rules).iter_errors(study)
-        for part in (_of_mapping(error) if isinstance(error.instance, dict) else ()) or (error,)
+        for part in (_nearest_alternative(error) if isinstance(error.instance, dict) else ()) or (error,)
     ]
     if errors:
         # First, for most often it is a key misspelt, which is then missing as well.
@@ -130,7 +130,7 @@ def _numbers(value: Any) -> Any:
     return float(label(value)) if isinstance(value, float) else value
 
 
-def _of_mapping(error: ValidationError) -> list[ValidationError]:
+def _nearest_alternative(error: ValidationError) -> list[ValidationError]:
     """What is wrong with the mapping, where mappings are alternatives: of the one that it is nearest to."""
     alternatives = error.validator_value if error.validator == "anyOf" else ()
     parts = [part for part in error.context if "$ref" in alternatives[part.schema_path[0]]]

@@ -26,7 +26,7 @@ KEYS = {"temperatures_C": "temperature_C", "frequencies_Hz": "frequency_Hz"}
 def require_feasible(study: Mapping[str, Any], source: str) -> None:
     """Refuse a complete study (`complete_study`) of which a step would fail later, and name the key."""
     if isinstance(study["geometry"], Mapping):
-        with _at(source):
+        with _prefix_errors(source):
             read_geometry(study["geometry"], [])
     _check_specimens(study["specimens"], source)
     _check_time_steps(study, source)
@@ -45,7 +45,7 @@ def require_feasible(study: Mapping[str, Any], source: str) -> None:
 
 
 @contextmanager
-def _at(where: str) -> Iterator[None]:
+def _prefix_errors(where: str) -> Iterator[None]:
     try:
         yield
     except InputError as error:
@@ -53,40 +53,40 @@ def _at(where: str) -> Iterator[None]:
 
 
 def _check_specimens(specimens: Mapping[str, Any], source: str) -> None:
-    with _at(f"{source}: specimens"):
+    with _prefix_errors(f"{source}: specimens"):
         geometry = read_shape(specimens["geometry"])
         require_joined(geometry, specimens["bonds"]["area"])
     for path in specimens.get("packings", []):
         # Only here, for it loads the compiled core, which no other study needs before its first job.
-        from asphalt_nscd.packings.incoming import as_deposit, read_packing
+        from asphalt_nscd.packings.incoming import deposit_content, read_packing
 
-        with _at(f"{source}: specimens.packings"):
-            given, _ = as_deposit(
+        with _prefix_errors(f"{source}: specimens.packings"):
+            given, _ = deposit_content(
                 read_packing(path), specimens.get("packing_unit"), specimens.get("packing_up", "z")
             )
-        with _at(f"{source}: specimens.packings: {path}"):
+        with _prefix_errors(f"{source}: specimens.packings: {path}"):
             require_within(geometry, given[0]["box"].tolist())
     if "packings" in specimens:
         return
-    with _at(f"{source}: specimens"):
+    with _prefix_errors(f"{source}: specimens"):
         require_within(geometry, specimens["box_m"])
-    with _at(f"{source}: specimens.counts_table"):
+    with _prefix_errors(f"{source}: specimens.counts_table"):
         read_counts(specimens["counts_table"])
 
 
 def _check_time_steps(study: Mapping[str, Any], source: str) -> None:
-    with _at(f"{source}: test.time_step_s"):
+    with _prefix_errors(f"{source}: test.time_step_s"):
         require_steps(study["test"]["time_step_s"], max(study["frequencies_Hz"]))
     stepping = study.get("time_step_study")
     if stepping:
-        with _at(f"{source}: time_step_study.time_steps_s"):
+        with _prefix_errors(f"{source}: time_step_study.time_steps_s"):
             require_steps(max(stepping["time_steps_s"]), stepping["frequency_Hz"])
 
 
 def _check_laws(study: Mapping[str, Any], source: str) -> None:
     """A law in the table for every temperature, where these laws are simulated or measurements drawn."""
     path = study["laws"]["published"]["table"]
-    with _at(f"{source}: laws.published.table"):
+    with _prefix_errors(f"{source}: laws.published.table"):
         available = read_published(path, study["laws"]["published"]["unit"])[0]
     if study["laws"]["simulate"] == "published" or "reconstruct" in study["measurements"]:
         _require_all(study["temperatures_C"], available, f"{source}: temperatures_C", path)
@@ -97,7 +97,7 @@ def _check_laws(study: Mapping[str, Any], source: str) -> None:
 def _check_measurements(study: Mapping[str, Any], source: str) -> None:
     """A measurement for every test, and a geometry for every specimen where it is needed."""
     path = study["measurements"]["table"]
-    with _at(f"{source}: measurements.table"):
+    with _prefix_errors(f"{source}: measurements.table"):
         tests, form = tests_measured(path)
     for key, column in KEYS.items():
         _require_all(study[key], tests[column], f"{source}: {key}", path)
@@ -109,7 +109,7 @@ def _check_measurements(study: Mapping[str, Any], source: str) -> None:
                     f"{source}: {path} has no test at {temperature:g} degC, {frequency:g} Hz; add it, or "
                     "leave one of them out of temperatures_C or frequencies_Hz."
                 )
-    with _at(f"{source}: {path}"):
+    with _prefix_errors(f"{source}: {path}"):
         require_enough(len(tests), tests["frequency_Hz"].nunique())
     if form != "moduli":
         read_geometry(study["geometry"], tests["specimen"])
@@ -120,7 +120,7 @@ def _check_reconstruction(study: Mapping[str, Any], source: str) -> None:
     # As `reconstruct` names its specimens.
     names = [str(number + 1) for number in range(study["measurements"]["reconstruct"]["specimens"])]
     frequencies = len(study["frequencies_Hz"])
-    with _at(f"{source}: frequencies_Hz"):
+    with _prefix_errors(f"{source}: frequencies_Hz"):
         require_enough(len(names) * len(study["temperatures_C"]) * frequencies, frequencies)
     if isinstance(study["geometry"], str):
         read_geometry(study["geometry"], names)

@@ -32,12 +32,12 @@ def _completed(rule: Any) -> Any:
     stated = {key: _completed(value) for key, value in rule.items() if key != "option"}
     if not isinstance(rule.get("option"), str):
         return {key: _completed(value) for key, value in rule.items()}
-    of_field, limits = _of_field(rule["option"]), set(_LIMITS.values())
+    of_field, limits = _schema_keywords(rule["option"]), set(_LIMITS.values())
     replaced = limits if limits & set(stated) else set()
     return {key: value for key, value in of_field.items() if key not in replaced} | stated
 
 
-def _of_field(place: str) -> dict[str, Any]:
+def _schema_keywords(place: str) -> dict[str, Any]:
     """Keywords of the schema for `specimen.settings.Surfaces.friction`, in the unit of its key."""
     module, kind, field = place.rsplit(".", 2)
     declared = options_of(getattr(import_module(f"asphalt_nscd.{module}"), kind))[field]

@@ -17,14 +17,14 @@ from asphalt_nscd.measurements.kinds import UNKNOWN
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
 from asphalt_nscd.table_import.cells import Cells, NotTests, Row, Sheet, read_sheets
 from asphalt_nscd.table_import.contested import refuse_mislabelled
-from asphalt_nscd.table_import.header_lines import require_rows, sections, tabulated, with_units
+from asphalt_nscd.table_import.header_lines import attach_units, require_rows, sections, tabulated
 from asphalt_nscd.table_import.machine_exports import blocks
 from asphalt_nscd.table_import.matrices import matrix_cells
 from asphalt_nscd.table_import.melt import holds_means
 from asphalt_nscd.table_import.quantities import QUALITY
 from asphalt_nscd.table_import.schemes import schemes_in
-from asphalt_nscd.table_import.several_files import Part, with_one_spelling, without_copies, without_repeated
-from asphalt_nscd.table_import.sheets import of_other_sheets, told_by_sheet
+from asphalt_nscd.table_import.several_files import Part, drop_copies, drop_repeated, unify_spelling
+from asphalt_nscd.table_import.sheets import is_computed_sheet, told_by_sheet
 from asphalt_nscd.table_import.skipped_files import SkippedFile, common_mend, listed, refused
 from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
@@ -61,11 +61,11 @@ def read_campaign(
             found = _file(path, notes, sheet, chosen)
         parts += found
     # Exports first: a table that was made from them is then the copy, and their quality columns stay.
-    parts = without_copies(sorted(parts, key=lambda part: not part.exported), notes)
-    parts = with_one_spelling(parts, notes)
+    parts = drop_copies(sorted(parts, key=lambda part: not part.exported), notes)
+    parts = unify_spelling(parts, notes)
     refuse_mislabelled(parts)
     _require_named_specimens(paths, parts)
-    parts = without_repeated(parts, notes)
+    parts = drop_repeated(parts, notes)
     _require_one_mix(parts)
     forms = sorted({part.read.form for part in parts})
     if len(forms) > 1:
@@ -215,13 +215,13 @@ def _table(
     cells = tabulated(path, rows, notes)
     if name is None:
         return cells
-    if of_other_sheets(name, cells):
+    if is_computed_sheet(name, cells):
         way = choice("with --sheet", "alone")
         raise NotTests(
             f"{path}: its name says that it was computed of others; give it {way} if it holds tests."
         )
     # Units first: a column that the name of the sheet fills would be a number in their line.
-    return told_by_sheet(with_units(cells), name, chosen)
+    return told_by_sheet(attach_units(cells), name, chosen)
 
 
 def _folder(

@@ -56,7 +56,7 @@ class Cells:
 
 def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
     """Cells of a CSV, TSV or XLSX file below its line of names; see `read_rows`."""
-    return as_cells(Path(path), *read_rows(path, sheet))
+    return build_cells(Path(path), *read_rows(path, sheet))
 
 
 def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], list[str]]:
@@ -109,7 +109,7 @@ def _held(rows: list[Row]) -> list[Row]:
     return [(line, cells) for line, cells in rows if cells and not _REMARK.match(_first(cells))]
 
 
-def as_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
+def build_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
     """A table from its rows; a title above its line of names is left out."""
     rows, notes = list(rows), list(notes)
     while len(rows) > 2 and len(rows[0][1]) == 1 < len(rows[1][1]):
@@ -117,12 +117,10 @@ def as_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
         rows.pop(0)
     # A column without a name is called by its number.
     header = [name or f"column {place}" for place, name in enumerate(rows[0][1], start=1)]
-    return Cells(
-        path, header, _fitted(path, header, _without_remarks_beside(rows[1:], len(header), notes)), notes
-    )
+    return Cells(path, header, _fitted(path, header, _drop_remarks(rows[1:], len(header), notes)), notes)
 
 
-def _without_remarks_beside(rows: list[Row], size: int, notes: list[str]) -> list[Row]:
+def _drop_remarks(rows: list[Row], size: int, notes: list[str]) -> list[Row]:
     """Rows without what stands beside the table, behind a column left empty, and begins with a word in each row."""
     beside = [cells[size:] for _, cells in rows if len(cells) > size]
     # A number beside the table may be a result whose name is missing: it is refused further on.

@@ -11,7 +11,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import choice
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.decimals import number
-from asphalt_nscd.table_import.heading import without_condition
+from asphalt_nscd.table_import.heading import strip_conditions
 from asphalt_nscd.table_import.quantities import MEASURED, Column, derived, recognise, unit_in
 
 Place = tuple[int, Column]  # of a column, and what it holds
@@ -21,12 +21,12 @@ _WARMEST = 60.0  # degC; three temperatures up to 60 F are 15 degC at most, and 
 _LEAST_TEMPERATURES = 3
 
 
-def as_written(name: str, column: Column) -> str:
+def name_with_unit(name: str, column: Column) -> str:
     """Our name of a quantity with the unit that the user's column has: E_GPa."""
     return f"{name.rpartition('_')[0]}_{column.unit}" if column.unit else name
 
 
-def by_column(wanted: str, name: str) -> str:
+def column_cue(wanted: str, name: str) -> str:
     """How a user says that the column of a name holds what is wanted."""
     return choice(f'with --column {wanted}="{name}"', "in its menu below")
 
@@ -66,7 +66,7 @@ def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Pl
 def _require_unit(cells: Cells, place: int, wanted: str, column: Column) -> None:
     """Refuse a unit that the name of the column contradicts."""
     name, units = cells.header[place], MEASURED[column.quantity][1]
-    told = unit_in(without_condition(name))
+    told = unit_in(strip_conditions(name))
     bracketed = re.search(r"[(\[{][^)\]}]*[)\]}]\s*$", name)
     if not told or not units or told == column.unit or (told not in units and not bracketed):
         return
@@ -160,7 +160,7 @@ def _contradiction(
         )
     return InputError(
         f"{cells.path}: columns {one!r} and {other!r} may each be {name}; say which "
-        f"{by_column(as_written(name, column), one)}, or remove the others ({differ})."
+        f"{column_cue(name_with_unit(name, column), one)}, or remove the others ({differ})."
     )
 
 

@@ -41,27 +41,27 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
             raise InputError(f"{where}, line {comma_line}: {comma!r} is text; enter it as a number.")
         raise InputError(
             f"{where}: {comma!r} (line {comma_line}) and {point!r} (line {point_line}) have different decimal "
-            f"marks{_or_groups(comma, point)}; write all numbers with the same{_ungrouped(comma, point)}."
+            f"marks{_groups_note(comma, point)}; write all numbers with the same{_ungrouped(comma, point)}."
         )
     return "," if "," in first else "."
 
 
-def like_below(heading: str, cells: Iterable[str]) -> str:
+def match_decimal_mark(heading: str, cells: Iterable[str]) -> str:
     """A number of a heading with the decimal mark of cells below it, where one of them can mean nothing else."""
     comma = any(_COMMA.fullmatch(cell) and not _GROUPED.fullmatch(cell) for cell in cells)
     return heading.replace(".", ",") if comma else heading
 
 
-def _or_groups(*texts: str) -> str:
+def _groups_note(*texts: str) -> str:
     grouped = next((text for text in texts if _GROUPED.fullmatch(text)), None)
     return f", or {grouped!r} groups its digits in thousands" if grouped else ""
 
 
 def _ungrouped(*texts: str) -> str:
-    return " and without separators" if _or_groups(*texts) else ""
+    return " and without separators" if _groups_note(*texts) else ""
 
 
-def with_point(text: str, mark: str) -> str:
+def normalise_decimal(text: str, mark: str) -> str:
     """A number with a decimal point and without groups, `5,558.0` as `5558.0`; other text as it is."""
     if mark == ",":
         return text.replace(",", ".")
@@ -71,6 +71,6 @@ def with_point(text: str, mark: str) -> str:
 def number(text: str, mark: str) -> float | None:
     """The number that a cell holds, read with the decimal mark `mark`; None if it holds none."""
     try:
-        return plain_number(with_point(text, mark))
+        return plain_number(normalise_decimal(text, mark))
     except ValueError:
         return None

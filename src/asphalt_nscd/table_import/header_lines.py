@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.table_import.cells import Cells, NotTests, Row, as_cells
+from asphalt_nscd.table_import.cells import Cells, NotTests, Row, build_cells
 from asphalt_nscd.table_import.heading import (
     CELSIUS,
     FAHRENHEIT,
@@ -18,7 +18,7 @@ from asphalt_nscd.table_import.heading import (
     condition,
     known,
     read_heading,
-    without_condition,
+    strip_conditions,
 )
 from asphalt_nscd.table_import.quantities import MEASURED, is_unit, unit_in
 
@@ -47,7 +47,7 @@ def tabulated(path: Path, rows: list[Row], notes: list[str]) -> Cells:
     notes = list(notes)
     stack = _stack(rows)
     if stack is None:
-        return as_cells(path, rows, notes)
+        return build_cells(path, rows, notes)
     first, names_line = stack.first, rows[stack.last - 1][0]
     lines = [line for line, _ in rows[first : stack.last]]
     if len(lines) > 1:
@@ -62,12 +62,12 @@ def tabulated(path: Path, rows: list[Row], notes: list[str]) -> Cells:
         notes.append(f"{'lines' if len(passed) > 1 else 'line'} above the names passed over: {quoted}{more}")
     else:
         kept = passed
-    cells = as_cells(path, [*kept, (names_line, stack.names), *body], notes)
+    cells = build_cells(path, [*kept, (names_line, stack.names), *body], notes)
     at = stack.at + [{}] * (len(cells.header) - len(stack.at))
-    return with_constants(replace(cells, at=at if any(at) else None), told, "the lines above the names")
+    return add_constants(replace(cells, at=at if any(at) else None), told, "the lines above the names")
 
 
-def with_constants(cells: Cells, told: dict[str, str], whence: str) -> Cells:
+def add_constants(cells: Cells, told: dict[str, str], whence: str) -> Cells:
     """The table with a column for each thing in `told` (by our names) that no column gives; `whence` is for a note."""
     from asphalt_nscd.table_import.melt import held
 
@@ -131,7 +131,7 @@ def sections(rows: list[Row]) -> list[list[Row]]:
 def require_rows(path: Path, rows: list[Row]) -> None:
     """Refuse a table with a column for each test, except a machine's export, which has one temperature in all."""
     cells_of = {
-        column.quantity: cells[1:] for _, cells in rows if (column := known(without_condition(cells[0])))
+        column.quantity: cells[1:] for _, cells in rows if (column := known(strip_conditions(cells[0])))
     }
     sizes = {len(cells_of.get(name, [])) for name in ("temperature_C", "frequency_Hz", "E_MPa")}
     if len(sizes) > 1 or max(sizes) < 2:
@@ -272,14 +272,14 @@ def _filled(names: list[str], size: int) -> list[str]:
     return out
 
 
-def with_units(cells: Cells) -> Cells:
+def attach_units(cells: Cells) -> Cells:
     """Put units from a line below the names, or behind a column's numbers, behind the names of the columns."""
     if not cells.rows:
         raise NotTests(f"{cells.path}: no line below the names of columns; add a line for each test.")
-    return _with_units_of_cells(_with_line_of_units(cells))
+    return _attach_cell_units(_attach_unit_line(cells))
 
 
-def _with_line_of_units(cells: Cells) -> Cells:
+def _attach_unit_line(cells: Cells) -> Cells:
     line, units = cells.rows[0]
     told = [place for place, unit in enumerate(units) if unit not in _NO_UNIT and is_unit(unit)]
     other = [unit for unit in units if unit not in _NO_UNIT and not is_unit(unit)]
@@ -300,7 +300,7 @@ def _with_line_of_units(cells: Cells) -> Cells:
     return replace(cells, header=header, rows=cells.rows[1:], notes=[*cells.notes, f"units from line {line}"])
 
 
-def _with_units_of_cells(cells: Cells) -> Cells:
+def _attach_cell_units(cells: Cells) -> Cells:
     """`4 °C`, `10 Hz`: the unit goes to the name of the column, if every number of the column has the same."""
     header, rows, notes = list(cells.header), [list(row) for _, row in cells.rows], list(cells.notes)
     for place, name in enumerate(cells.header):
@@ -314,7 +314,7 @@ def _with_units_of_cells(cells: Cells) -> Cells:
             continue
         units = {unit_in(f"x ({match[2]})") for match in found.values()}
         bare = any(NUMBER.fullmatch(row[place]) for row in rows)
-        own = unit_in(without_condition(name))
+        own = unit_in(strip_conditions(name))
         if len(units) > 1 or (own is not None and units != {own}) or (own is None and bare):
             n = next(iter(found))
             raise InputError(

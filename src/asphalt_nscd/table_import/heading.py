@@ -112,7 +112,7 @@ def condition(text: str) -> dict[str, str]:
     return at if len(text) <= LONGEST_NAME and not _tidy(_taken(text, at)) else {}
 
 
-def without_condition(name: str) -> str:
+def strip_conditions(name: str) -> str:
     """Name of a column without the conditions that its heading carries."""
     return read_heading(name).name
 

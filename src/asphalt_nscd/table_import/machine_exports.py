@@ -9,9 +9,9 @@ from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells, Row
-from asphalt_nscd.table_import.decimals import decimal_mark, like_below
+from asphalt_nscd.table_import.decimals import decimal_mark, match_decimal_mark
 from asphalt_nscd.table_import.heading import known
-from asphalt_nscd.table_import.names import celsius, of_file, specimen_of
+from asphalt_nscd.table_import.names import celsius, file_label, specimen_of
 from asphalt_nscd.table_import.quantities import ABSENT, Column, unit_in
 from asphalt_nscd.table_import.targets import FAR, Header, decided, median_reading
 
@@ -95,7 +95,7 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
             _require_whole(path, frequencies, taken, rows[at + 1 + len(taken) :])
             said = list(notes)
             table = _turned(path, line, cells, taken, said)
-            found.append(_as_block(path, header, table, said, called, several))
+            found.append(_result_block(path, header, table, said, called, several))
             at += 1 + len(taken)
         elif (
             _names_columns(cells)
@@ -103,7 +103,7 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
             and _one_target(cells, rows[at:])
         ):
             table = _listed(path, cells, rows[at + 1 :])
-            found.append(_as_block(path, header, table, notes, called, several))
+            found.append(_result_block(path, header, table, notes, called, several))
             at += 1 + len(table.rows)
         else:
             if not _names_columns(cells):
@@ -216,7 +216,7 @@ def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], note
     modulus = next((n for n, cells in rows if _holds(cells[0], "E_MPa")), line)
     turned: dict[float, Row] = {}
     below = [(n, cell) for n, cells in rows if known(cells[0]) for cell in cells[1:]]
-    headings = [like_below(text, [cell for _, cell in below]) for text in _frequencies(frequencies)]
+    headings = [match_decimal_mark(text, [cell for _, cell in below]) for text in _frequencies(frequencies)]
     decimal_mark(
         str(path), [*((line, text) for text in headings), *below]
     )  # the lines of both are known here
@@ -252,7 +252,7 @@ def _listed(path: Path, names: list[str], rows: list[Row]) -> Cells:
     return Cells(path, names, taken)
 
 
-def _as_block(
+def _result_block(
     path: Path, header: _Header, results: Cells, notes: list[str], called: str, several: bool
 ) -> Block:
     """The results with what the header says of all of them: specimen, target temperature, origin."""
@@ -271,7 +271,7 @@ def _as_block(
         notes.append(f"frequencies without a modulus left out: {len(results.rows) - len(rows)}")
     reading = columns[held["temperature_C"]] if "temperature_C" in held else None
     identified = header.first(_IDENTIFICATION)
-    stem = of_file(called)
+    stem = file_label(called)
     text = identified[1] if identified else stem
     reached = median_reading(rows, held.get("temperature_C"), reading.unit if reading else None)
     # The name of a file with several blocks says no more than where it begins.

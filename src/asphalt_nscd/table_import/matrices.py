@@ -9,7 +9,7 @@ from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells, Row, Sheet
-from asphalt_nscd.table_import.decimals import like_below
+from asphalt_nscd.table_import.decimals import match_decimal_mark
 from asphalt_nscd.table_import.header_lines import NUMBER, told_above
 from asphalt_nscd.table_import.heading import KEYS, SPECIMEN, Heading, condition, known, read_heading
 from asphalt_nscd.table_import.sheets import OF_OTHERS
@@ -139,7 +139,7 @@ def _matrices(
                     continue
                 both = (text, down.texts[n]) if turned else (down.texts[n], text)
                 key = (current.at.get(SPECIMEN, specimen), _number(both[0]), _number(both[1]))
-                pair = like_below(both[0], below), like_below(both[1], below)
+                pair = match_decimal_mark(both[0], below), match_decimal_mark(both[1], below)
                 values.append(_Value(line, key, pair, current.column.quantity, value))
         order = (across.name, down.name) if turned else (down.name, across.name)
         held = {one.column.quantity: one.name for one in names.values() if one.column}

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.cells import Cells
-from asphalt_nscd.table_import.decimals import like_below
+from asphalt_nscd.table_import.decimals import match_decimal_mark
 from asphalt_nscd.table_import.heading import (
     CELSIUS,
     FAHRENHEIT,
@@ -89,7 +89,7 @@ def melted(cells: Cells) -> Cells:
         said = [headings[next(iter(columns.values()))].at.get(key, "") for key in conditions]
         # `0.5 Hz` in a heading may have a point above cells with decimal commas.
         texts = [
-            text if key == SPECIMEN else like_below(text, below)
+            text if key == SPECIMEN else match_decimal_mark(text, below)
             for key, text in zip(conditions, said, strict=True)
         ]
         for line, row in cells.rows:

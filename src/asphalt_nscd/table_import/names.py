@@ -56,7 +56,7 @@ def _is(match: re.Match[str], target: float) -> bool:
     return (apart if value < 0.0 else min(apart, abs(value - abs(target)))) <= _SAME
 
 
-def of_file(stem: str) -> str:
+def file_label(stem: str) -> str:
     """What an export's file is called, without the machine's mark of a summary."""
     return re.sub(r"[_\s-]*Sum(mary)?$", "", stem, flags=re.IGNORECASE)
 

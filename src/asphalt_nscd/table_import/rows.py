@@ -44,7 +44,7 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
     left: dict[str, list[Row]] = {}
     for (line, row), of_other in zip(cells.rows, of_others, strict=True):
         # Tables that were pasted below each other bring their names again.
-        why = _NAMES if row == cells.header else _no_test(row, keys, results)
+        why = _NAMES if row == cells.header else _rejection(row, keys, results)
         why = why or (_MEAN if means and of_other else None)
         (kept if why is None else left.setdefault(why, [])).append((line, row))
     if not kept:
@@ -58,7 +58,7 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
     return _carried(replace(cells, rows=kept, notes=notes), places)
 
 
-def _no_test(row: list[str], keys: list[int], results: list[int]) -> str | None:
+def _rejection(row: list[str], keys: list[int], results: list[int]) -> str | None:
     """Why a row is no test; None if it is one, or should be."""
     if not any(_BEGINS_NUMBER.match(row[place]) for place in (*keys, *results)):
         return _NOT_MEASURED if any(row[place] for place in results) and len(_filled(row)) > 2 else _REMARK

@@ -12,7 +12,7 @@ from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted, specimen_named
 from asphalt_nscd.table_import.dates import later
-from asphalt_nscd.table_import.names import of_file, one_of_another, specimen_of, spelling
+from asphalt_nscd.table_import.names import file_label, one_of_another, specimen_of, spelling
 from asphalt_nscd.table_import.understand import ParsedTable
 
 _FIGURES = 4  # digits in which two files that hold the same tests agree
@@ -46,7 +46,7 @@ class Part:
         return {tuple(map(_short, test)) for test in zip(*(columns[name] for name in names), strict=True)}
 
 
-def without_copies(parts: list[Part], notes: list[str]) -> list[Part]:
+def drop_copies(parts: list[Part], notes: list[str]) -> list[Part]:
     """Parts without those whose every test another file holds under any specimen name; appends to `notes`."""
     kept: list[Part] = []
     for part in parts:
@@ -76,7 +76,7 @@ def _saved_twice(part: Part, holders: list[Part]) -> str:
     )
 
 
-def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
+def unify_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
     """Parts with one name for a specimen that exports spell differently, `Mix-A`, `mix a`; appends to `notes`."""
     first: dict[str, str] = {}
     others: dict[str, list[str]] = {}
@@ -94,7 +94,7 @@ def with_one_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
     return kept
 
 
-def without_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
+def drop_repeated(parts: list[Part], notes: list[str]) -> list[Part]:
     """Parts without a test given twice: that of the later date, or marked as repeated, is kept; appends to `notes`."""
     # First of all: a file three times softer replaced the right one, because its date was later.
     _require_specimens_of_names(parts)
@@ -138,7 +138,7 @@ def _require_specimens_of_names(parts: list[Part]) -> None:
     for (specimen, *_), several in of_test.items():
         names = {}
         for part in several:
-            name = specimen_of(of_file(part.path.stem), None)
+            name = specimen_of(file_label(part.path.stem), None)
             if name.temperature is not None:
                 names[name.specimen] = part
         alike = any(spelling(name) == spelling(specimen) for name in names)
@@ -181,7 +181,7 @@ def _require_alike(parts: list[Part]) -> None:
 
 def _require_one_specimen(first: Part, second: Part, specimen: str, temperature: str) -> None:
     """Refuse two files with one test if one of them is called after another specimen of the series."""
-    names = [specimen_of(of_file(part.path.stem), None).specimen for part in (first, second)]
+    names = [specimen_of(file_label(part.path.stem), None).specimen for part in (first, second)]
     others = [one_of_another(name, specimen) for name in names]
     if others[0] == others[1] or not (first.exported and second.exported):
         return

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.decimals import number
-from asphalt_nscd.table_import.header_lines import with_constants
+from asphalt_nscd.table_import.header_lines import add_constants
 from asphalt_nscd.table_import.melt import held
 from asphalt_nscd.table_import.names import specimen_of
 from asphalt_nscd.table_import.quantities import recognise
@@ -20,7 +20,7 @@ OF_OTHERS = re.compile(
 )
 
 
-def of_other_sheets(name: str, cells: Cells) -> bool:
+def is_computed_sheet(name: str, cells: Cells) -> bool:
     """Whether a sheet was computed from others: its name says so, and no column names specimens."""
     return bool(OF_OTHERS.match(name)) and "specimen" not in held(cells)
 
@@ -38,7 +38,7 @@ def told_by_sheet(cells: Cells, name: str, chosen: Mapping[str, str]) -> Cells:
         temperature = None  # a part of the specimen's own name
     if "specimen" not in has and not bare:
         told["specimen"] = known.specimen if temperature else name
-    return with_constants(cells, told, "the name of the sheet")
+    return add_constants(cells, told, "the name of the sheet")
 
 
 def _all_at(cells: Cells, temperature: str) -> bool:

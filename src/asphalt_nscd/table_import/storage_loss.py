@@ -24,7 +24,7 @@ _SAID = {
 }
 
 
-def with_whole_modulus(values: dict[str, list[str]]) -> list[str]:
+def fill_whole_modulus(values: dict[str, list[str]]) -> list[str]:
     """Put |E*| [MPa] and phase [deg] into `values` for what stands for them; returns a note if anything did."""
     parts = [name for name in ("E1_MPa", "E2_MPa", "tan_delta") if name in values]
     if not parts:

@@ -66,7 +66,7 @@ def decided(
     stand for one. Refused where no reading decides between two that are far apart, or the reading fits neither.
     """
     if header is None:
-        return _without_header(path, names, measured, notes)
+        return _headerless_target(path, names, measured, notes)
     other = _contradicting(path, header, names)
     if other is None:
         if measured is not None and abs(measured - header.value) > OFF:
@@ -106,7 +106,7 @@ def _unit(header: Header) -> str:
     return {"C": "degC", "F": "degF"}.get(header.unit, header.unit)
 
 
-def _without_header(
+def _headerless_target(
     path: Path, names: Sequence[str], measured: float | None, notes: list[str]
 ) -> Target | None:
     told = [(text, said) for text in names if (said := specimen_of(text, None).temperature) is not None]

@@ -11,14 +11,14 @@ from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, is_reduced
 from asphalt_nscd.table_import.cells import Cells, NotTests
-from asphalt_nscd.table_import.columns import Place, as_written, by_column, chosen_columns, one_of
-from asphalt_nscd.table_import.decimals import decimal_mark, number, with_point
-from asphalt_nscd.table_import.header_lines import with_units
+from asphalt_nscd.table_import.columns import Place, chosen_columns, column_cue, name_with_unit, one_of
+from asphalt_nscd.table_import.decimals import decimal_mark, normalise_decimal, number
+from asphalt_nscd.table_import.header_lines import attach_units
 from asphalt_nscd.table_import.heading import known, read_heading
 from asphalt_nscd.table_import.melt import melted
 from asphalt_nscd.table_import.quantities import ABSENT, QUALITY, Column, derived, recognise
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
-from asphalt_nscd.table_import.storage_loss import WAYS, with_whole_modulus
+from asphalt_nscd.table_import.storage_loss import WAYS, fill_whole_modulus
 
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")
@@ -60,7 +60,7 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedT
     """Tests of a user's table; `chosen` names columns by what they hold, `{"E_GPa": "Steifigkeit"}`."""
     if not chosen and (ours := _own(cells)):
         return ours
-    cells = melted(with_units(cells))
+    cells = melted(attach_units(cells))
     columns = _columns(cells, chosen or {})
     form, results = _form(cells, columns)
     places = {name: columns[name][0][0] for name in (*CARRIED, *KEYS, *results) if name in columns}
@@ -73,9 +73,9 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedT
             notes += said
             copies |= same
     kept |= _further(columns, form)
-    mix = _the_mix(cells, kept)
+    mix = _only_mix(cells, kept)
     values, mark = _values(cells, kept)
-    notes += with_whole_modulus(values)
+    notes += fill_whole_modulus(values)
     notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
     note = _specimens(cells, values)
     sources = {
@@ -160,7 +160,7 @@ def names_force_or_modulus(cell: str) -> bool:
     return column is not None and column.quantity in ("E_MPa", "F0_N") and column.unit is not None
 
 
-def _the_mix(cells: Cells, kept: Mapping[str, Place]) -> str:
+def _only_mix(cells: Cells, kept: Mapping[str, Place]) -> str:
     """The name of the only mix in the table."""
     if "mix" not in kept:
         return ""
@@ -171,7 +171,7 @@ def _the_mix(cells: Cells, kept: Mapping[str, Place]) -> str:
         raise InputError(
             f"{cells.path}: column {cells.header[place]!r} holds {len(mixes)} mixes ({named}), and a diagnosis is of "
             "one mix: save the rows of each mix as a file of its own and give one of them. If these are specimens of "
-            f"one mix, say so {by_column('specimen', cells.header[place])}."
+            f"one mix, say so {column_cue('specimen', cells.header[place])}."
         )
     return mixes[0]
 
@@ -191,7 +191,7 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
             place, column = columns[angle][0]
             raise InputError(
                 f"{cells.path}: column {cells.header[place]!r} does not say whose phase it is; if it is that of "
-                f"{of}, say so {by_column(as_written(wanted, column), cells.header[place])}."
+                f"{of}, say so {column_cue(name_with_unit(wanted, column), cells.header[place])}."
             )
     _require_plain(cells, missing["moduli"])
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
@@ -201,7 +201,7 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
     raise (NotTests if nothing else InputError)(
         f"{cells.path}: no {wanted} (found: {named}); write names with units, or name a column of "
-        f"yours {by_column(missing[form][0], 'its name')}."
+        f"yours {column_cue(missing[form][0], 'its name')}."
     )
 
 
@@ -274,7 +274,7 @@ def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[
                 )
             converted = f"{round(in_ours, 2) if column.offset else in_ours:.10g}"  # 0.01 K of degF
             # What needs no conversion keeps the digits that the user wrote.
-            values[name].append(converted if _converts(column) else with_point(row[place], mark))
+            values[name].append(converted if _converts(column) else normalise_decimal(row[place], mark))
     return values, mark
 
 
@@ -306,6 +306,6 @@ def _specimens(cells: Cells, values: dict[str, list[str]]) -> str:
         if earlier != line:
             raise InputError(
                 f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens "
-                f"apart; add a column specimen or replicate, or say which is one, {by_column('specimen', 'its name')}."
+                f"apart; add a column specimen or replicate, or say which is one, {column_cue('specimen', 'its name')}."
             )
     return "no column of specimens, so all tests are taken as of one specimen"

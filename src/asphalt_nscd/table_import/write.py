@@ -69,7 +69,7 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
     campaign, form = read_campaign(measurements, options.sheet, options.columns, options.measured_in)
     source = ", ".join(map(str, measurements))
     direct = campaign.test_type == "tension-compression"
-    read, notes = for_study(campaign, form)
+    read, notes = study_table(campaign, form)
     geometry = _geometry(form, direct, options)
     frame = reduced_frame(read, geometry)
     temperatures, frequencies, outside = grid(frame, read.path)
@@ -148,7 +148,7 @@ def _require_free(name: str, config: Path, folder: Path) -> None:
             raise InputError(f"{path} exists already; choose another NAME, or remove it.")
 
 
-def for_study(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
+def study_table(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
     """The columns of a campaign that a study takes, with the temperature of the isotherm, and notes on changes.
 
     A study fits one Burgers law for each isotherm, so that all tests of one must have the same temperature. A replicate

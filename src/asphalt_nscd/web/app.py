@@ -96,7 +96,7 @@ def create_app(token: str | None = None) -> Flask:
         return response
 
     @app.errorhandler(HTTPException)
-    def in_one_sentence(error: HTTPException) -> tuple[Response, int]:
+    def error_response(error: HTTPException) -> tuple[Response, int]:
         said = str(error.description)
         # Too many parts of a form have the same code as too many bytes.
         if error.code == 413 and (request.content_length or 0) <= app.config["MAX_CONTENT_LENGTH"]:

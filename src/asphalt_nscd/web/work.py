@@ -110,7 +110,7 @@ def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, outpu
             content = _diagnosed(paths, choices, output, lambda *said: pipe.send(("progress", said)))
         pipe.send(("done", content))
     except InputError as error:
-        pipe.send(("failed", {"error": _for_the_page(str(error), paths), "columns": _columns(paths)}))
+        pipe.send(("failed", {"error": _shorten_paths(str(error), paths), "columns": _columns(paths)}))
     except MemoryError:
         pipe.send(("failed", {"error": "the file needs too much memory; give the table of results alone."}))
     except Exception:
@@ -128,7 +128,7 @@ def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
     return {
         "form": form,
         "test_type": campaign.test_type,
-        "notes": [_for_the_page(note, paths) for note in campaign.notes],
+        "notes": [_shorten_paths(note, paths) for note in campaign.notes],
         "tests": len(campaign.table.lines),
         "specimens": list(dict.fromkeys(table["specimen"])),
         "header": shown,
@@ -161,7 +161,7 @@ def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
                     {
                         "name": cells.header[n],
                         "quantity": "" if column is None else column.quantity,
-                        "unit": "" if column is None else column.unit or _not_said(column.quantity),
+                        "unit": "" if column is None else column.unit or _missing_unit(column.quantity),
                         "condition": ", ".join(heading.at.values()),
                         "cells": ", ".join(sample),
                     },
@@ -175,13 +175,13 @@ def _tables(path: Path) -> list[Cells]:
     from asphalt_nscd.table_import.header_lines import tabulated
     from asphalt_nscd.table_import.matrices import matrix_cells
     from asphalt_nscd.table_import.melt import holds_means
-    from asphalt_nscd.table_import.sheets import of_other_sheets
+    from asphalt_nscd.table_import.sheets import is_computed_sheet
 
     sheets = read_sheets(path)
     if (cells := matrix_cells(path, sheets, [])) is not None:
         return [cells]
     tables = [(str(sheet.name), tabulated(path, sheet.rows, [])) for sheet in sheets]
-    own = [cells for name, cells in tables if not of_other_sheets(name, cells) and not holds_means(cells)]
+    own = [cells for name, cells in tables if not is_computed_sheet(name, cells) and not holds_means(cells)]
     return own or [cells for _, cells in tables]
 
 
@@ -190,14 +190,14 @@ def _rounded(text: str) -> str:
     return f"{float(text):.6g}" if re.fullmatch(r"-?\d+\.\d{3,}", text) else text
 
 
-def _not_said(quantity: str) -> str:
+def _missing_unit(quantity: str) -> str:
     """In place of a unit that a column does not say; empty where the quantity has none."""
     from asphalt_nscd.table_import.quantities import MEASURED
 
     return "not said" if quantity in MEASURED and MEASURED[quantity][1] else ""
 
 
-def _for_the_page(text: str, paths: Sequence[Path]) -> str:
+def _shorten_paths(text: str, paths: Sequence[Path]) -> str:
     """A sentence with the names of the files alone."""
     for path in paths:
         text = text.replace(str(path), path.name)

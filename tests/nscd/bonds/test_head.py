@@ -38,7 +38,7 @@ def reduced(system, law, devices, vectors=12, tolerance=1e-6) -> ReducedStepper:
 
 
 def full(system, law, devices) -> CondensedStepper:
-    return CondensedStepper(system, law, DT, CondensedState.at_rest(system, law), devices)
+    return CondensedStepper(system, law, DT, CondensedState.rest_state(system, law), devices)
 
 
 def march(stepper, driven):
@@ -134,7 +134,7 @@ def test_devices_against_bonds_step_by_step(beam_system, amplitude):
         with_actuator(beam_system, ALL, 1e10),
         ELASTIC,
         DT,
-        CondensedState.at_rest(with_actuator(beam_system, ALL, 1e10), ELASTIC),
+        CondensedState.rest_state(with_actuator(beam_system, ALL, 1e10), ELASTIC),
     )
     reference = march(twin, driven)
     condensed, short = full(beam_system, ELASTIC, ALL), reduced(beam_system, ELASTIC, ALL)
@@ -153,7 +153,9 @@ def test_contacts_behind_a_clamp(beam_system):
     )
     driven = sine(6e-5, cycles=0.2)
     joined = with_actuator(system, ALL, 1e10)
-    reference = march(CondensedStepper(joined, ELASTIC, DT, CondensedState.at_rest(joined, ELASTIC)), driven)
+    reference = march(
+        CondensedStepper(joined, ELASTIC, DT, CondensedState.rest_state(joined, ELASTIC)), driven
+    )
     wide = replace(system, gap=beam_system.gap)
     assert deviation(march(full(wide, ELASTIC, ALL), driven), reference) > 1e-3
     assert deviation(march(full(system, ELASTIC, ALL), driven), reference) < 1e-7
@@ -170,7 +172,7 @@ def test_contacts_behind_a_clamp(beam_system):
 def test_slider_behind_a_clamp(beam_system, quick_law):
     """Sticks and slips; at every step clamp force = specimen + devices + slider; reduced and full alike."""
     driven, stepper = sine(1e-6, cycles=2), full(beam_system, quick_law, SLIDING)
-    clamp, spring, slider, mass = SLIDING.of_head
+    clamp, spring, slider, mass = SLIDING.head_constants
     head, states, force = beam_system.driven, [], []
     for n, velocity in enumerate(np.diff(driven, prepend=0.0) / DT):
         x, v = stepper.state.displacement[head], stepper.state.velocity[head]

@@ -73,7 +73,7 @@ def test_a_test_without_factors(system, monkeypatch):
     """Steps of the full system and the reduced basis, the same to 1e-8 where factors are too large."""
 
     def run():
-        stepper = CondensedStepper(system, LAW, 5e-5, CondensedState.at_rest(system, LAW))
+        stepper = CondensedStepper(system, LAW, 5e-5, CondensedState.rest_state(system, LAW))
         force = [stepper.advance(v) for v in (1e-3, 2e-3, -1e-3)]
         return type(stepper._operator._factor).__name__, np.array(force), ritz_basis(system, 3)
 

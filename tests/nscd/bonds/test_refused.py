@@ -32,7 +32,7 @@ def test_friction_that_drives(beam_system):
 
 
 def test_a_motion_beyond_all_numbers_ends(beam_system, quick_law):
-    state = CondensedState.at_rest(beam_system, quick_law)
+    state = CondensedState.rest_state(beam_system, quick_law)
     stepper = CondensedStepper(beam_system, quick_law, 1e-4, state)
     with (
         np.errstate(over="ignore"),

@@ -7,7 +7,7 @@ import pytest
 from naive.granular import blocks_in_order, sweep_one_by_one
 
 from asphalt_nscd.nscd.lanes import WIDTH
-from asphalt_nscd.nscd.spheres.blocks import deal_lively, first_lively, give_back, in_blocks, number_blocks
+from asphalt_nscd.nscd.spheres.blocks import deal_blocks, deal_lively, first_lively, give_back, number_blocks
 from asphalt_nscd.nscd.spheres.gauss_seidel import sweep_blocks
 from asphalt_nscd.nscd.spheres.slabs import private_rows, workspace_for
 from asphalt_nscd.nscd.team import Team
@@ -48,7 +48,7 @@ def test_each_slab_is_dealt_by_itself(members):
     bodies = some_contacts(200)
     pair, begin = np.random.default_rng(2).permutation(200).astype(np.int32), np.array([0, 70, 70, 160, 200])
     with Team(members) as team:
-        slabs, workspace = in_blocks(team, begin, pair, bodies, workspace_for(0, BODIES, PLANES))
+        slabs, workspace = deal_blocks(team, begin, pair, bodies, workspace_for(0, BODIES, PLANES))
     assert workspace.block.size >= slabs.pair.size == WIDTH * slabs.begin[-1]
     rows = []
     for s in range(4):
@@ -75,7 +75,7 @@ def some_room(bodies, seed):
     """(Slabs, Workspace) of contacts of all kinds, sticking, slipping, open; bodies of many masses, the wall heavy."""
     rng, count = np.random.default_rng(seed), len(bodies)
     begin = np.array([0, count, count])
-    slabs, workspace = in_blocks(
+    slabs, workspace = deal_blocks(
         Team(), begin, np.arange(count, dtype=np.int32), bodies, workspace_for(0, BODIES, PLANES)
     )
     workspace.motion[:BODIES, [0, 1, 2, 4, 5, 6]] = rng.normal(size=(BODIES, 6))

@@ -122,7 +122,7 @@ def test_what_earlier_steps_left_in_the_room_does_not_count():
         position, radius = random_lattice(
             np.array([2e-3, 4e-3]), np.array([80, 10]), (0.04, 0.014, 0.03), np.random.default_rng(3)
         )
-        pile = GranularBed.in_box(position, radius, (0.04, 0.014, 0.03), 2600.0, 0.2)
+        pile = GranularBed.spheres_in_box(position, radius, (0.04, 0.014, 0.03), 2600.0, 0.2)
         for _ in range(60):
             pile.advance(PouringNumerics())
             impulse = pile.impulse

@@ -10,7 +10,7 @@ from theory.grains import (
 )
 
 from asphalt_nscd.nscd.lanes import WIDTH
-from asphalt_nscd.nscd.spheres.blocks import in_blocks
+from asphalt_nscd.nscd.spheres.blocks import deal_blocks
 from asphalt_nscd.nscd.spheres.gauss_seidel import (
     COUNT,
     NOTED,
@@ -77,7 +77,7 @@ def sweeps_of_a_squeezed_grain(relaxation):
     """Until a light ball on the floor has stopped one 125 times as heavy, to 1e-6 of its speed."""
     bodies = np.array([[1, 0], [0, 2]], np.int32)  # heavy and light, light and floor
     begin, pairs = np.array([0, 2, 2]), np.arange(2, dtype=np.int32)
-    slabs, workspace = in_blocks(Team(), begin, pairs, bodies, workspace_for(0, 3, 1))
+    slabs, workspace = deal_blocks(Team(), begin, pairs, bodies, workspace_for(0, 3, 1))
     block, lane = np.divmod(np.argsort(slabs.pair)[-2:], WIDTH)
     contacts, motion = workspace.contacts, workspace.motion
     contacts[block, 2, lane] = -1.0  # both normals point down

@@ -58,7 +58,7 @@ def test_one_law_in_every_bond_by_gauss_seidel_and_in_the_frequency_domain(make_
     system = bending_system(make_beam(shape=(2, 2, 4)), 0.35, 2.7e6, 0.7)
     everywhere, forces = mixed(system, (quick_law, quick_law)), []
     for law in (quick_law, everywhere):
-        stepper = SweepingStepper(system, law, 1e-4, CondensedState.at_rest(system, law), 1e-3, 20)
+        stepper = SweepingStepper(system, law, 1e-4, CondensedState.rest_state(system, law), 1e-3, 20)
         forces.append([stepper.advance(1e-4) for _ in range(5)])
     np.testing.assert_allclose(forces[1], forces[0], rtol=1e-12)
     one, other = (
@@ -78,7 +78,7 @@ def test_oscillation_of_two_bonds(series):
         exact, rel=1e-12
     )
     stepper = CondensedStepper(
-        replace(system, mass=np.array([1e-30, 1e-14])), law, dt, CondensedState.at_rest(system, law)
+        replace(system, mass=np.array([1e-30, 1e-14])), law, dt, CondensedState.rest_state(system, law)
     )
     sine = 1e-6 * np.sin(2 * np.pi / steps * np.arange(1, 20 * steps + 1))
     force = np.array([stepper.advance(speed) for speed in np.diff(sine, prepend=0.0) / dt])
@@ -90,7 +90,7 @@ def test_oscillation_of_two_bonds(series):
 def test_naive_twin(beam_system, broken):
     """Six steps against dense, uncondensed equations, which add a Kelvin element that is absent as no motion."""
     dt, law = 5e-5, mixed(beam_system, (MAXWELL, BURGERS, BURGERS))
-    state = CondensedState.at_rest(beam_system, law)
+    state = CondensedState.rest_state(beam_system, law)
     state.broken = list(broken)
     stepper, twin = CondensedStepper(beam_system, law, dt, state), NaiveState.at_rest(beam_system, law)
     absent = law.kelvin_springs == 0.0
@@ -139,7 +139,7 @@ def test_the_stiffer_of_two_bonds_breaks():
     system = replace(between((1e-3, 1e-3), series=False), strength=np.array([100.0, 100.0, np.inf]))
     soft, dt, speed = replace(STONE, spring=6e9), 1e-4, 1e-3
     law = BondLaws.of_bonds((STONE, soft), np.array([1, 0, 0]))
-    stepper = CondensedStepper(system, law, dt, CondensedState.at_rest(system, law))
+    stepper = CondensedStepper(system, law, dt, CondensedState.rest_state(system, law))
     for n in range(1, 41):
         force = stepper.advance(-speed) - (-system.mass[0] * speed / dt if n == 1 else 0.0)
         opening = n * dt * speed

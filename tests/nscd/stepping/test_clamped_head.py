@@ -33,6 +33,6 @@ def test_a_contact_force_that_only_the_solvers_tolerance_changes_is_met(seed):
         -float(following @ (impulse / dt + force)),
         (1.0 + float(stepper._coupling() @ following)) / dt,
     )
-    expected, _ = follow_actuator(devices.of_head, dt, free_force, impedance, dt * 1e-3, 0.0, 0.0)
+    expected, _ = follow_actuator(devices.head_constants, dt, free_force, impedance, dt * 1e-3, 0.0, 0.0)
     assert contact_force == pytest.approx(force, rel=1e-10)
     assert motion[0] == pytest.approx(expected, rel=1e-10)

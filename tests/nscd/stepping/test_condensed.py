@@ -18,7 +18,7 @@ ELASTIC = BondLaw(1e10, 1e20, np.array([]), np.array([]))
 
 
 def stepper(of: BondedSystem, law=LAW, dt=1e-4, broken=()) -> CondensedStepper:
-    state = CondensedState.at_rest(of, law)
+    state = CondensedState.rest_state(of, law)
     state.broken = list(broken)
     return CondensedStepper(of, law, dt, state)
 

@@ -31,7 +31,7 @@ def test_a_broken_bond_is_a_frictional_contact(load):
     """Pulled, both weak bonds go within one step, the weaker first. Pushed back, the body rests on the wall
     and not below; pressed with N it bears 0.5 N across and slides under more, as Coulomb says."""
     system = held_by_two_bonds(load)
-    stepper = CondensedStepper(system, ELASTIC, 1e-4, CondensedState.at_rest(system, ELASTIC))
+    stepper = CondensedStepper(system, ELASTIC, 1e-4, CondensedState.rest_state(system, ELASTIC))
     state = stepper.state
     stepper.advance(2e-7 / 1e-4)
     assert state.broken == [1, 2] and state.displacement[1] > 0.0

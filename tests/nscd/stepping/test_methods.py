@@ -32,7 +32,7 @@ def stepped(system, law, dt, method, cycles) -> complex:
     if method == "reduced":
         force = ReducedStepper(ReducedModel(system, ritz_basis(system, 12)), law, dt, 1e-6).run(driven)[0]
     else:
-        stepper = CondensedStepper(system, law, dt, CondensedState.at_rest(system, law))
+        stepper = CondensedStepper(system, law, dt, CondensedState.rest_state(system, law))
         force = np.array([stepper.advance(v) for v in np.diff(driven, prepend=0.0) / dt])
     found = harmonic_response(time, force[REST:], driven[REST:], FREQUENCY, cycles=2)
     return found.force_amplitude / found.displacement_amplitude * np.exp(1j * found.phase)

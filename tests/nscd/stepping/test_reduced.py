@@ -121,7 +121,7 @@ def test_bounds_hold_everywhere_in_the_envelope(beam_system):
         share = beam_system.utilisation(model.weight * (model.opening @ s))
         assert (share <= bound * (1 + 1e-12)).all()
         assert np.isin(np.flatnonzero(share > 1.0), may_yield).all()
-        head, others = model.bounds.beyond_head(np.arange(share.size), sigma).T
+        head, others = model.bounds.head_bounds(np.arange(share.size), sigma).T
         assert (share <= (head * abs(s[0]) + others) * (1 + 1e-12)).all()
         closed = beam_system.gap + model.opening[::3] @ q < 0
         assert np.isin(np.flatnonzero(closed), may_close).all()

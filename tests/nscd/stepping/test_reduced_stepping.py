@@ -30,7 +30,7 @@ def reduced(system, law, vectors=12, tolerance=1e-6, dt=DT) -> ReducedStepper:
 
 
 def full(system, law, dt=DT) -> CondensedStepper:
-    return CondensedStepper(system, law, dt, CondensedState.at_rest(system, law))
+    return CondensedStepper(system, law, dt, CondensedState.rest_state(system, law))
 
 
 def march(stepper, driven):

@@ -94,7 +94,7 @@ def run(system, law, basis, stand_by, driven=DRIVEN):
 
 
 def in_full(system, law, driven=DRIVEN):
-    stepper = CondensedStepper(system, law, DT, CondensedState.at_rest(system, law))
+    stepper = CondensedStepper(system, law, DT, CondensedState.rest_state(system, law))
     return np.array([stepper.advance(v) for v in np.diff(driven, prepend=0.0) / DT]), stepper
 
 

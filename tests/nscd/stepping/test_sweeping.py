@@ -19,7 +19,7 @@ SOFT = BondLaw(24.3e6, 0.06e6, np.array([48.4e6]), np.array([0.077e6]))  # a tho
 
 
 def sweeping(system, law, tolerance, most_sweeps, dt=DT) -> SweepingStepper:
-    return SweepingStepper(system, law, dt, CondensedState.at_rest(system, law), tolerance, most_sweeps)
+    return SweepingStepper(system, law, dt, CondensedState.rest_state(system, law), tolerance, most_sweeps)
 
 
 def march(stepper, driven):
@@ -75,7 +75,7 @@ def test_run_to_convergence_it_solves_the_condensed_equations(small):
         replace(small, strength=np.full_like(small.strength, np.inf)),
         SOFT,
         DT,
-        CondensedState.at_rest(small, SOFT),
+        CondensedState.rest_state(small, SOFT),
     )
     reference = march(direct, driven)
     np.testing.assert_allclose(
@@ -94,7 +94,7 @@ def test_stopped_early_the_specimen_turns_soft(make_beam):
     true resistance, at 500 more of it, although the criterion of change reads below 1e-2."""
     system = replace(bending_system(make_beam(), 0.35, np.inf, 0.7), load=np.zeros(330))
     driven = 1e-6 * np.sin(2 * np.pi * 40.0 * DT * np.arange(1, 126))  # a quarter of a cycle
-    reference = march(CondensedStepper(system, STIFF, DT, CondensedState.at_rest(system, STIFF)), driven)
+    reference = march(CondensedStepper(system, STIFF, DT, CondensedState.rest_state(system, STIFF)), driven)
     share = []
     for most_sweeps in (50, 500):
         stepper = sweeping(system, STIFF, 0.0, most_sweeps)
@@ -111,7 +111,7 @@ def test_a_loose_criterion_stops_it_early_too(small):
         replace(small, strength=np.full_like(small.strength, np.inf)),
         SOFT,
         DT,
-        CondensedState.at_rest(small, SOFT),
+        CondensedState.rest_state(small, SOFT),
     )
     reference = march(direct, driven)
     errors, sweeps = [], []

@@ -90,13 +90,13 @@ class Cause(ABC):
 
     def places(self, observed: Observations) -> Sequence[Place]:
         """Specimens, isotherms [degC] or None (all tests) where it may sit; empty if the table or the bench cannot."""
-        return (None,) if self.on_bench(observed) and self.shows(observed) else ()
+        return (None,) if self.possible_on_bench(observed) and self.shows(observed) else ()
 
     def shows(self, observed: Observations) -> bool:
         """Whether the table can show the cause at all: yes, unless a cause says what it takes."""
         return True
 
-    def on_bench(self, observed: Observations) -> bool:
+    def possible_on_bench(self, observed: Observations) -> bool:
         """Whether the apparatus can have the cause; True too if the bench is unknown and every bench can."""
         if observed.test_type == UNKNOWN:  # only what every test can have
             return set(TEST_TYPES) <= set(self.benches)

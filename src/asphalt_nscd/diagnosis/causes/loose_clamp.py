@@ -26,7 +26,7 @@ class LooseClamp(Cause):
     def places(self, observed: Observations) -> Sequence[Place]:
         """Each specimen, where there are others: a compliance of all specimens is another law exactly."""
         # A compliance of all specimens, 1/E + C, is another law exactly: only one that differs shows.
-        return observed.names if len(observed.names) > 1 and self.on_bench(observed) else ()
+        return observed.names if len(observed.names) > 1 and self.possible_on_bench(observed) else ()
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """Put a compliance C in series with the specimen: 1 / (1/E* + C) (n,) [Pa], with `values` (1,) C in 1/Pa."""

@@ -9,8 +9,8 @@ import pandas as pd
 
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE
-from asphalt_nscd.diagnosis.words.sentences import an, typed
-from asphalt_nscd.diagnosis.written import UNITS, shown, three_digits, with_interval
+from asphalt_nscd.diagnosis.words.sentences import article, typed
+from asphalt_nscd.diagnosis.written import UNITS, interval_text, shown, three_digits
 from asphalt_nscd.files.words import joined
 
 SHOWS = 5.0  # times the error of the whole, up to which a part is told
@@ -98,9 +98,9 @@ def _sentence(one: Common) -> str:
     value = shown(one.value, unit)[0]
     name = typed(shown(one.value, unit)[1])
     half = CONFIDENCE * shown(one.std_error, unit)[0]
-    size, words = f"{with_interval(value, half)} {name}", one.cause.name.replace("_", " ")
+    size, words = f"{interval_text(value, half)} {name}", one.cause.name.replace("_", " ")
     if one.named:
-        others = joined([an(other.replace("_", " ")) for other in one.as_good], "or")
+        others = joined([article(other.replace("_", " ")) for other in one.as_good], "or")
         or_else = f"; {others} would fit as well" if others else ""
         return f"Machine: {words} in all campaigns, {size} (95 % interval){or_else}."
     differ = []
@@ -110,6 +110,6 @@ def _sentence(one: Common) -> str:
         ends = [f"{three_digits(shown(part.value, unit)[0])} {name} ({part.where})" for part in (low, high)]
         differ.append(f"between {group} from {ends[0]} to {ends[1]}")
     return (
-        f"Common to the campaigns, without a name: they look as with {an(words)} of {size}, but its size differs "
+        f"Common to the campaigns, without a name: they look as with {article(words)} of {size}, but its size differs "
         f"{joined(differ)}. So it is no {words} of the machine alone."
     )

@@ -31,13 +31,13 @@ from asphalt_nscd.diagnosis.settings import Draws
 from asphalt_nscd.diagnosis.written import widening
 
 
-def of_machine(cause: Cause) -> bool:
+def is_machine_cause(cause: Cause) -> bool:
     """Whether a cause has one parameter, of head or channel, the same in all tests of a machine."""
     # Amplitudes add up over campaigns; the shapes of a cause would not.
     return cause.stage >= HEAD and not cause.confined_to and len(cause.parameters) == 1
 
 
-MACHINE = frozenset(cause.name for cause in CATALOGUE if of_machine(cause))
+MACHINE = frozenset(cause.name for cause in CATALOGUE if is_machine_cause(cause))
 FARTHEST = 30.0  # standard errors, beyond which a campaign is as far
 ITERATIONS = 30
 SETTLED = 2  # fits with the causes of the machine at their pooled size
@@ -49,21 +49,21 @@ class _Campaign:
     state: fit_beside.State
     spread: float  # factor on its errors, as its own diagnosis tells them
 
-    def with_causes(self, causes: Sequence[Cause], amplitudes: Vector) -> _Campaign:
+    def refit_campaign(self, causes: Sequence[Cause], amplitudes: Vector) -> _Campaign:
         """Fitted with the causes at these amplitudes [typical units] as a start."""
-        own = tuple(one for one in self.state.fitted.active if not of_machine(one.cause))
+        own = tuple(one for one in self.state.fitted.active if not is_machine_cause(one.cause))
         added = tuple(
             Candidate(cause, None, (amplitude * cause.parameters[0].typical,))
             for cause, amplitude in zip(causes, amplitudes, strict=True)
             if cause.places(self.state.plain.observed)
         )
-        return replace(self, state=fit_beside.with_causes(self.state, (*own, *added)))
+        return replace(self, state=fit_beside.refit_causes(self.state, (*own, *added)))
 
     def judged_beside(self, causes: Sequence[Cause], amplitudes: Vector) -> _Campaign:
         """The same with the spread that is left beside causes of the machine: what is common to all is no reason to
         believe each of them less.
         """
-        state = self.with_causes(causes, amplitudes).state
+        state = self.refit_campaign(causes, amplitudes).state
         estimates = limits_beside.estimates(state, with_discrepancy.survey(state, CATALOGUE))
         named = {one.cause.name for one in state.fitted.active} | MACHINE
         return replace(self, spread=widening(spread_of(estimates, named)))
@@ -76,7 +76,7 @@ class _Evidence:
     information: NDArray
     score: Vector
 
-    def at(self, kept: Sequence[int], held: Mapping[int, float]) -> _Evidence:
+    def conditional(self, kept: Sequence[int], held: Mapping[int, float]) -> _Evidence:
         """Of some of them, others held at a value."""
         at = list(kept)
         score = self.score[at].copy()
@@ -96,7 +96,7 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = Draws.number, seed: in
     limits: dict[str, float] = {}
     while states:
         tables = [one.state.plain.observed for one in states]
-        left = [cause for cause in CATALOGUE if of_machine(cause) and cause not in causes]
+        left = [cause for cause in CATALOGUE if is_machine_cause(cause) and cause not in causes]
         open_ = [cause for cause in left if any(map(cause.places, tables))]
         if not open_:
             break
@@ -108,7 +108,7 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = Draws.number, seed: in
         states = [one.judged_beside([*causes, first], beside) for one in states]
         each = {cause: [_evidence(one, [*causes, cause]) for one in states] for cause in open_}
         pooled = {cause: _together(each[cause], amplitudes) for cause in open_}
-        by_chance = _by_chance(states, [*causes, *open_], len(causes), draws, random)
+        by_chance = _largest_by_chance(states, [*causes, *open_], len(causes), draws, random)
         threshold = float(np.quantile(by_chance, 1.0 - criteria.ALPHA_OF_MACHINE))
         for cause in open_:
             size = (threshold + criteria.Z_95) * pooled[cause].std_error * cause.parameters[0].typical
@@ -125,7 +125,7 @@ def pool(campaigns: Mapping[str, Diagnosis], draws: int = Draws.number, seed: in
         amplitudes = np.append(amplitudes, pooled[best].value)
         p_value = chance.tail(by_chance, z)
         for _ in range(SETTLED):
-            states = [one.with_causes(causes, amplitudes) for one in states]
+            states = [one.refit_campaign(causes, amplitudes) for one in states]
             amplitudes = _all_together([_evidence(one, causes) for one in states], amplitudes)
         as_good = tuple(cause.name for cause in near if cause is not best)
         found.append(Common(best, p_value, as_good))
@@ -144,7 +144,7 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
     if not isinstance(base, FlexibleSpectrum) or diagnosis.observed.isotherms.size < 2:
         return None
     plain = Joint(diagnosis.observed, base, diagnosis.noise)
-    own = tuple(one for one in ladder.fitted.active if not of_machine(one.cause))
+    own = tuple(one for one in ladder.fitted.active if not is_machine_cause(one.cause))
     fitted = plain.fit(ladder.fitted.law, ladder.fitted.scales, own)
     spread = spread_of(ladder.estimates, MACHINE | {rung.candidate.cause.name for rung in ladder.rungs})
     return _Campaign(name, fit_beside.begin(plain, fitted), widening(spread))
@@ -214,7 +214,7 @@ def _together(each: Sequence[_Evidence], taken: Vector) -> _Whole:
     says.
     """
     last = taken.size
-    alone = [one.at([last], dict(enumerate(taken))) for one in each]
+    alone = [one.conditional([last], dict(enumerate(taken))) for one in each]
     weight = np.array([float(one.information[0, 0]) for one in alone])
     shown = weight > 0.0
     if not shown.any():
@@ -269,7 +269,7 @@ def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float], cam
 
 def _gain(each: Sequence[_Evidence], taken: Vector) -> float:
     """Of -2 ln likelihood, by the last cause with an amplitude of its own in each campaign."""
-    alone = [one.at([taken.size], dict(enumerate(taken))) for one in each]
+    alone = [one.conditional([taken.size], dict(enumerate(taken))) for one in each]
     shown = [one for one in alone if one.information[0, 0] > 0.0]
     return sum(float(one.score[0] ** 2 / one.information[0, 0]) for one in shown)
 
@@ -279,7 +279,7 @@ def _z(cause: Cause, found: _Whole) -> float:
     return max(found.z, 0.0) if cause.one_sided else abs(found.z)
 
 
-def _by_chance(
+def _largest_by_chance(
     states: Sequence[_Campaign], causes: Sequence[Cause], taken: int, draws: int, random: np.random.Generator
 ) -> Vector:
     """The largest z of the causes after the first `taken` that chance alone gives."""
@@ -306,11 +306,11 @@ def _told(
 ) -> Common:
     """A cause with its size beside all others, and from each campaign, isotherm and frequency alone."""
     order = [*(j for j in range(len(causes)) if j != k), k]
-    each = [one_.at(order, {}) for one_ in last]
+    each = [one_.conditional(order, {}) for one_ in last]
     others = amplitudes[order[:-1]]
     whole = _together(each, others)
     unit = one.cause.parameters[0].typical
-    alone = [one_.at([len(order) - 1], dict(enumerate(others))) for one_ in each]
+    alone = [one_.conditional([len(order) - 1], dict(enumerate(others))) for one_ in each]
     campaigns = tuple(_part(of.name, evidence, unit) for of, evidence in zip(states, alone, strict=True))
     ordered = [causes[j] for j in order]
     isotherms, by_isotherm = _apart(states, ordered, lambda of: of.isotherm, "degC")

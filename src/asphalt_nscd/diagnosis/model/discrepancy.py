@@ -75,7 +75,7 @@ class Processes:
         bend = np.where(about, (2.0 / s / variances - slope) / variances, -0.5 * rare**2)
         return float(value.sum()), slope, bend
 
-    def beside(self, variances: Vector) -> NDArray:
+    def covariance_factor(self, variances: Vector) -> NDArray:
         """What the processes add to the scatter: factor (2n, r) of the covariance of ln|E*| and of the phase."""
         # Columns of no size would cost as much as others whenever residuals are whitened.
         kept = [
@@ -93,7 +93,7 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
     described, roots = list[Process](), []
     # The law of a single specimen is its spectrum.
     if len(observed.names) > 1:
-        spectra = noise.sigma[0] * _of_spectrum(joint, fitted)
+        spectra = noise.sigma[0] * _spectrum_factor(joint, fitted)
         for k, name in enumerate(observed.names):
             described.append(Process("spectrum", "both", specimen=name))
             roots.append(spectra * (observed.specimen == k)[:, None])
@@ -109,7 +109,7 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
     return Processes(tuple(described), tuple(roots), factor, block, np.array(usual), rare)
 
 
-def _of_spectrum(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:
+def _spectrum_factor(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:
     """What a smooth relative change of the spectrum by one does to ln E*, a factor (n, rank)."""
     log_times = np.log(joint.spectrum.times)[:, None]
     modulus, slope = joint.base.modulus(fitted.law, joint.observed.omega, joint.observed.temperature)
@@ -138,10 +138,10 @@ def _kernels(observed: Observations) -> Iterator[tuple[Process, NDArray, Kernel]
         both = np.hstack([log_f / SPECIMEN_LENGTH, observed.temperature[:, None] / span])
         for k, name in enumerate(observed.names):
             at = np.where(observed.specimen == k, 0.0, np.nan)[:, None]
-            yield Process("specimen", "either", specimen=name), both + at, _of_specimen
+            yield Process("specimen", "either", specimen=name), both + at, _specimen_factor
 
 
-def _of_specimen(apart: NDArray) -> NDArray:
+def _specimen_factor(apart: NDArray) -> NDArray:
     return 0.5 + 0.5 * np.exp(-0.5 * (apart**2).sum(axis=0))
 
 

@@ -12,7 +12,7 @@ from asphalt_nscd.diagnosis.model import discrepancy, likelihood
 from asphalt_nscd.diagnosis.model.discrepancy import Processes
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate, Reduced
-from asphalt_nscd.diagnosis.model.start import first_laws, of_likeliest_roughness, price_of_roughness
+from asphalt_nscd.diagnosis.model.start import first_laws, fit_roughness, price_of_roughness
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 Vector = NDArray[np.float64]
@@ -59,7 +59,7 @@ def begin(plain: Joint, fitted: Fitted) -> State:
     return min(begun, key=lambda state: state.misfit)
 
 
-def with_causes(state: State, active: tuple[Candidate, ...]) -> State:
+def refit_causes(state: State, active: tuple[Candidate, ...]) -> State:
     """Fit anew with other causes."""
     return settle(state.plain, state.model.processes, state.fitted, active, state.variances)
 
@@ -70,7 +70,7 @@ def settle(
     """Fit law, causes and discrepancy in turn, from the law and scales of `at` and `variances` (m,)."""
     law, scales = at.law, at.scales
     for _ in range(SETTLED):
-        noise = plain.noise.beside(found.beside(variances))
+        noise = plain.noise.add_discrepancy(found.covariance_factor(variances))
         wide = Joint(plain.observed, plain.base, noise)
         fitted = wide.fit(law, scales, active, CONVERGED)
         law, scales, active = fitted.law, fitted.scales, fitted.active
@@ -102,7 +102,7 @@ def smoothed(state: State) -> State:
     """Fit anew with the roughness of the law that is likeliest beside the discrepancy."""
     for _ in range(SMOOTHED):
         before = state
-        wide, fitted = of_likeliest_roughness(state.wide, state.fitted, CONVERGED)
+        wide, fitted = fit_roughness(state.wide, state.fitted, CONVERGED)
         plain = Joint(state.plain.observed, wide.base, state.plain.noise)
         state = settle(plain, state.model.processes, fitted, fitted.active, state.variances)
         if wide.spectrum.roughness == before.wide.spectrum.roughness:
@@ -120,7 +120,7 @@ def afresh(state: State, active: tuple[Candidate, ...]) -> State:
     return settle(state.plain, found, fitted, fitted.active, start)
 
 
-def of_taken(
+def taken_amplitude(
     state: State, candidate: Candidate, rows: NDArray | None = None, sizes_too: bool = False
 ) -> Estimate:
     """Amplitude of a cause in the fit, in typical units; `sizes_too` adds the error of the discrepancy's sizes."""
@@ -133,19 +133,21 @@ def of_taken(
     rest = linear.fixed(first)
     found, start = model.processes, state.variances
     if rows is not None:
-        found, start = of_rows(found, plain, rows, start)
+        found, start = row_processes(found, plain, rows, start)
     model = likelihood.reduce(found, rest)
     pointing = likelihood.directions(model, rest, d)
     found_value = likelihood.estimate(model, pointing, start)
     if sizes_too:
-        found_value = likelihood.with_uncertain_sizes(model, pointing, found_value)
+        found_value = likelihood.widen_error(model, pointing, found_value)
     active = next(one for one in state.fitted.active if one.key == candidate.key)
     stands = active.values[0] / active.typical[0]
     # The estimate is what the fit, standing at this size, still lacks.
     return replace(found_value, amplitude=found_value.amplitude + stands)
 
 
-def of_rows(found: Processes, plain: Joint, rows: NDArray, variances: Vector) -> tuple[Processes, Vector]:
+def row_processes(
+    found: Processes, plain: Joint, rows: NDArray, variances: Vector
+) -> tuple[Processes, Vector]:
     """The processes of some rows (r,) and their variances, without those that reach none of the rows."""
     kept = [k for k, root in enumerate(found.roots) if np.abs(root[rows]).max() > 0.0]
     roots = tuple(found.roots[k][rows] for k in kept)
@@ -158,7 +160,7 @@ def of_rows(found: Processes, plain: Joint, rows: NDArray, variances: Vector) ->
     )
 
 
-def of_shapes(fitted: Fitted, candidate: Candidate, observed: Observations) -> float:
+def shape_cost(fitted: Fitted, candidate: Candidate, observed: Observations) -> float:
     """What the freedom of a cause's shapes costs: -2 ln of the share of their prior that tests leave them (Laplace).
 
     The prior is about as wide as the fit's about each start. The share is that given the amplitude, whose own error is

@@ -28,6 +28,6 @@ class HeldOut:
             predicted = np.empty(label.size, complex)
             for fold in np.unique(label):
                 rows = np.flatnonzero(label == fold)
-                predicted[rows] = self.joint.predict(self.joint.without(rows, fitted))[rows]
+                predicted[rows] = self.joint.predict(self.joint.refit_without(rows, fitted))[rows]
             self._made[key] = predicted
         return self._made[key]

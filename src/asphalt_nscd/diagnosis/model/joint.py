@@ -51,7 +51,7 @@ class Candidate:
         return len(self.values) > 1
 
     @property
-    def at_bounds(self) -> list[tuple[Parameter, float]]:
+    def pinned(self) -> list[tuple[Parameter, float]]:
         """Parameters that stand at a bound of their range, with their values; an absent cause has none."""
         return [
             (parameter, value)
@@ -59,7 +59,7 @@ class Candidate:
             if value and np.isclose(value, [parameter.low, parameter.high], rtol=1e-6, atol=0.0).any()
         ]
 
-    def with_values(self, values: Vector) -> Candidate:
+    def replace_values(self, values: Vector) -> Candidate:
         """The same candidate with other parameters (p,) in their units."""
         return replace(self, values=tuple(float(v) for v in values))
 
@@ -176,7 +176,7 @@ class Joint:
         for sign in (-1.0, 1.0):
             values = np.array(active[index].values)
             values[parameter] += sign * 1e-3 * typical[parameter]
-            moved = active[:index] + (active[index].with_values(values),) + active[index + 1 :]
+            moved = active[:index] + (active[index].replace_values(values),) + active[index + 1 :]
             low_high.append(self._shown(law, moved, scales))
         return np.asarray(np.log(low_high[1] / low_high[0]) / 2e-3, complex)
 
@@ -221,7 +221,7 @@ class Joint:
         modulus = self.apparent(fitted.law, fitted.active, fitted.scales)[0]
         return np.log(np.abs(modulus)) + 1j * np.angle(modulus)
 
-    def without(self, rows: NDArray[np.int64], fitted: Fitted) -> Fitted:
+    def refit_without(self, rows: NDArray[np.int64], fitted: Fitted) -> Fitted:
         """Repeat the fit without some rows; a cause that reaches no other row is absent from it."""
         kept = np.setdiff1d(np.arange(self.observed.size), rows)
         part = Joint(self.observed.subset(kept), self.base, self.noise.subset(kept))
@@ -270,7 +270,7 @@ class Joint:
             low = [parameter.low for parameter in candidate.cause.parameters]
             high = [parameter.high for parameter in candidate.cause.parameters]
             # Clipped: a cause that wants more stands at its bound, and `doubts` tells so.
-            active.append(candidate.with_values(np.clip(values, low, high)))
+            active.append(candidate.replace_values(np.clip(values, low, high)))
             first += size
         return self.linearise(law, fitted.scales + step[p : p + s], tuple(active))
 

@@ -35,7 +35,7 @@ class Laboratory:
         # A second specimen, of which a next test is, brings what a single one has not.
         roots = _roots(joint, at, mounting).items()
         own = [self.sizes.get(kind, LABORATORY[kind].size) * root for kind, root in roots]
-        return np.hstack([_of_isotherm(joint, at), *own])
+        return np.hstack([_isotherm_factor(joint, at), *own])
 
 
 def processes(joint: Joint, fitted: Fitted) -> tuple[Processes, tuple[str, ...]]:
@@ -69,14 +69,14 @@ def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
     )
 
 
-def of_single_tests(joint: Joint, fitted: Fitted) -> Joint:
+def isotherm_noise_model(joint: Joint, fitted: Fitted) -> Joint:
     """The model whose noise is the scatter of single tests and the temperatures of isotherms, whose size is stated."""
     # What a block shares is its mounting's: it is not counted twice.
     alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared), discrepancy=None)
-    return Joint(joint.observed, joint.base, alone.beside(_parts(_of_isotherm(joint, fitted))))
+    return Joint(joint.observed, joint.base, alone.add_discrepancy(_parts(_isotherm_factor(joint, fitted))))
 
 
-def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | None]:
+def add_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | None]:
     """The model with what the laboratory adds to the scatter, and that; unchanged, and None, with one isotherm."""
     # On one isotherm a mounting is the level of its specimen, and a temperature belongs to the law.
     if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
@@ -85,10 +85,10 @@ def with_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | N
     # several times as large.
     shared = tuple(Candidate(cause, None, (0.0,)) for cause in CATALOGUE if cause.stage == CHANNEL)
     free, beside = start.fit_spectrum(joint.observed, joint.noise, (*fitted.active, *shared))
-    held = of_single_tests(free, beside)
+    held = isotherm_noise_model(free, beside)
     found = estimate(held, held.linearise(beside.law, beside.scales, beside.active))
     alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared))
-    noise = alone.beside(_parts(found.factor(joint, fitted, alone.block)))
+    noise = alone.add_discrepancy(_parts(found.factor(joint, fitted, alone.block)))
     return Joint(joint.observed, joint.base, noise), found
 
 
@@ -97,29 +97,29 @@ def _parts(factor: NDArray[np.complex128]) -> NDArray:
     return np.concatenate([factor.real, factor.imag])
 
 
-def _of_isotherm(joint: Joint, at: Fitted) -> NDArray[np.complex128]:
+def _isotherm_factor(joint: Joint, at: Fitted) -> NDArray[np.complex128]:
     """Factor (n, isotherms) of their temperatures."""
     observed = joint.observed
     isotherm = observed.isotherm[:, None] == observed.isotherms
-    return OF_ISOTHERM * _per_kelvin(joint, at.law)[:, None] * isotherm
+    return OF_ISOTHERM * _temperature_slope(joint, at.law)[:, None] * isotherm
 
 
 def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, NDArray[np.complex128]]:
     """What one unit of each effect does to ln E*, a column for each mounting."""
     mounted = np.eye(int(mounting.max()) + 1, dtype=complex)[mounting]
     roots = {
-        "specimen temperature": _per_kelvin(joint, at.law)[:, None] * mounted,
+        "specimen temperature": _temperature_slope(joint, at.law)[:, None] * mounted,
         "mounting, modulus": mounted,
         "mounting, phase": 1j * mounted,
     }
     # Times of a single specimen are the law's.
     if len(joint.observed.names) > 1:
         specimens = np.eye(len(joint.observed.names))[joint.observed.specimen]
-        roots["specimen times"] = _per_time(joint, at.law)[:, None] * specimens
+        roots["specimen times"] = _time_slope(joint, at.law)[:, None] * specimens
     return roots
 
 
-def _per_time(joint: Joint, law: Vector) -> NDArray[np.complex128]:
+def _time_slope(joint: Joint, law: Vector) -> NDArray[np.complex128]:
     """Derivative (n,) of ln E* along ln of all relaxation times."""
     observed = joint.observed
     low, high = (
@@ -129,7 +129,7 @@ def _per_time(joint: Joint, law: Vector) -> NDArray[np.complex128]:
     return np.asarray(np.log(high / low) / (2.0 * STEP), complex)
 
 
-def _per_kelvin(joint: Joint, law: Vector) -> NDArray[np.complex128]:
+def _temperature_slope(joint: Joint, law: Vector) -> NDArray[np.complex128]:
     """Derivative (n,) of ln E* along the temperature."""
     observed = joint.observed
     low, high = (

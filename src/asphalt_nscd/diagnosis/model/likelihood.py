@@ -144,7 +144,7 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
     return Estimate(np.exp(log_v), now.misfit, now.amplitude, now.std_error)
 
 
-def with_uncertain_sizes(model: Reduced, cause: Direction, found: Estimate) -> Estimate:
+def widen_error(model: Reduced, cause: Direction, found: Estimate) -> Estimate:
     """The same with a standard error that holds what is not known of the variances (Kackar and Harville 1984).
 
     Their covariance is that of the curvature of the objective; what the table does not tell is held to a factor.

@@ -39,12 +39,10 @@ def fit_spectrum(
         if best is None or fitted.objective < best[0] - 1e-3:
             best = fitted.objective, joint, fitted
     assert best is not None
-    return of_likeliest_roughness(*best[1:])
+    return fit_roughness(*best[1:])
 
 
-def of_likeliest_roughness(
-    joint: Joint, fitted: Fitted, converged: float = CONVERGED
-) -> tuple[Joint, Fitted]:
+def fit_roughness(joint: Joint, fitted: Fitted, converged: float = CONVERGED) -> tuple[Joint, Fitted]:
     """Find the roughness of largest marginal likelihood, each fitted from where the one before ended."""
     scored = []
     for roughness in ROUGHNESS:

@@ -81,7 +81,7 @@ def second_specimen(done: Observations, costs: Costs) -> Orders:
     return [_order(f"test {NEW}", [NEW], at, done, costs, words)]
 
 
-def more_temperatures(done: Observations, costs: Costs) -> Orders:
+def order_temperatures(done: Observations, costs: Costs) -> Orders:
     """Order as many temperatures as certainty lacks: beyond those tested, then between them."""
     tested = done.isotherms
     beyond = [t for t in (tested[-1] + BEYOND, tested[0] - BEYOND) if COLDEST <= t <= WARMEST]

@@ -19,7 +19,7 @@ from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.next_tests import sweeps
 from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Linear, Tested, parts
-from asphalt_nscd.diagnosis.next_tests.sweeps import HALF, Costs, Sweep, at_half_strain
+from asphalt_nscd.diagnosis.next_tests.sweeps import HALF, Costs, Sweep, half_strain_rows
 from asphalt_nscd.diagnosis.observed.copies import copied
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
 from asphalt_nscd.diagnosis.screening import levels
@@ -67,7 +67,7 @@ class Possible:
 
 def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     """All sweeps that could follow, with the model linearised at the last fit."""
-    observed = sweeps.with_strain(diagnosis.observed)
+    observed = sweeps.fill_strain(diagnosis.observed)
     fitted, base = diagnosis.ladder.fitted, diagnosis.ladder.joint.base
     laws_between = isinstance(base, FlexibleSpectrum)  # a Burgers law says nothing of another temperature
     at_all = sweeps.temperatures(observed) if laws_between else observed.isotherms.tolist()
@@ -78,7 +78,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     scales = np.append(fitted.scales, 0.0)
     candidates = _candidates(observed, table, fitted.active)
     at = joint.linearise(fitted.law, scales, fitted.active)
-    nuisance, precision = _of_law(joint, at)
+    nuisance, precision = _law_derivatives(joint, at)
     keys = tuple(c.key for c in fitted.active)
     effects = np.column_stack([_effect(joint, at, candidate, keys) for candidate in candidates])
     if diagnosis.laboratory is not None:  # every sweep is a mounting of its own
@@ -90,7 +90,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     columns = [(one, slice(a, b)) for one, (a, b) in zip(processes, pairwise(ends), strict=True)]
     nuisance = np.hstack([nuisance, *roots])
     precision = block_diag(precision, np.diag(1.0 / np.repeat(variances, ranks)))
-    metal = sweeps.on_metal(observed)
+    metal = sweeps.metal_tests(observed)
     rows = _metal_rows(metal, table, columns, nuisance)
     effects = np.vstack([effects, _metal_effects(metal, candidates)])
     # Metal has a level of its own: its phase and its slope over frequency tell of the machine, its modulus hardly.
@@ -107,7 +107,7 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     left = parts(observed.logarithm - fitted.modelled)
     moved = known.expected(parts(linear.nuisance[old.rows]).T @ np.linalg.solve(old.scatter, left))
     departures = [
-        *_not_linear(diagnosis, table, linear, moved, columns),
+        *_nonlinear_departures(diagnosis, table, linear, moved, columns),
         *(_again(diagnosis, table, linear, one) for one in _odd(diagnosis)),
         *_repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear),
     ]
@@ -120,7 +120,7 @@ def _repeats(
 ) -> Iterator[Departure]:
     """By how much each test that cannot be used departs from what the others say of it, at the row that repeats it."""
     whole = diagnosis.whole or diagnosis.observed
-    usual = ~at_half_strain(table)
+    usual = ~half_strain_rows(table)
     of_copies = {row for one in copied(whole) for row in one.rows}
     for one in [suspect for suspect in diagnosis.suspects if not suspect.used]:
         k, t, f = whole.specimen[one.row], whole.isotherm[one.row], whole.frequency[one.row]
@@ -136,13 +136,13 @@ def _repeats(
 def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:
     """Isotherms and specimens that are odd."""
     done = diagnosis.whole or diagnosis.observed
-    phases, _ = levels.with_confined(levels.odd_phases(done), [], diagnosis.ladder.of_one_place)
+    phases, _ = levels.merge_confined(levels.odd_phases(done), [], diagnosis.ladder.confined_faults)
     return [*levels.odd(done), *phases]
 
 
 def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mapping[str, Any]) -> Departure:
     """By how much an isotherm or specimen is odd, at the rows that repeat it."""
-    again = (table.specimen == table.names.index(one["specimen"])) & ~at_half_strain(table)
+    again = (table.specimen == table.names.index(one["specimen"])) & ~half_strain_rows(table)
     again[: diagnosis.observed.size] = False
     if one["temperature_C"] is not None:
         again &= table.isotherm == one["temperature_C"]
@@ -154,7 +154,7 @@ def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mappi
     return Departure("level", effect, one["specimen"], one["temperature_C"], odd=one)
 
 
-def _not_linear(
+def _nonlinear_departures(
     diagnosis: Diagnosis, table: Observations, linear: Linear, moved: NDArray, columns: Columns
 ) -> Iterator[Departure]:
     """What half the strain changes at each isotherm whose own discrepancy is larger than the scatter of a test."""
@@ -163,7 +163,7 @@ def _not_linear(
         if t is not None and t in large:
             own = sum(linear.nuisance[:, at] @ moved[at] for process, at in columns if process.isotherm == t)
             here = np.zeros(linear.effects.shape[0], bool)
-            here[: table.size] = (table.isotherm == t) & at_half_strain(table)
+            here[: table.size] = (table.isotherm == t) & half_strain_rows(table)
             yield Departure("linear", np.where(here, -HALF * own, 0.0), isotherm=t)
 
 
@@ -188,7 +188,7 @@ def _effect(joint: Joint, at: Fitted, candidate: Candidate, active: tuple) -> Co
     return joint.direction(at.law, at.scales, (*at.active, candidate), len(at.active), 0)
 
 
-def _of_law(joint: Joint, at: Fitted) -> tuple[Complex, Vector]:
+def _law_derivatives(joint: Joint, at: Fitted) -> tuple[Complex, Vector]:
     """Derivatives (N, q) with respect to law, scales and shapes of causes; the precision of their priors."""
     modulus, slope = joint.apparent(at.law, at.active, at.scales)
     shapes = [

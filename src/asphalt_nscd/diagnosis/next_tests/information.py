@@ -96,7 +96,7 @@ class Knowledge:
         lower = np.linalg.cholesky(np.array(scatter) + spread @ spread.transpose(0, 2, 1))
         return np.linalg.solve(lower, self._left[at]), np.linalg.solve(lower, spread)
 
-    def after(self, tests: Tested) -> Knowledge:
+    def posterior(self, tests: Tested) -> Knowledge:
         """What is known with further tests done."""
         # Updated by the tests taken alone: a factor anew would be of all q unknowns, after each order.
         effects, spread = (value[0] for value in self._new(tests.rows[None], [tests.scatter]))
@@ -158,14 +158,14 @@ class Inquiry:
             key: known.information + known.gained([_some(one, np.frombuffer(key, bool)) for one in tests])
             for key, known in self._known.items()
         }
-        gained = [one.nats(after[one.kept.tobytes()]) - one.nats(self._by_now(one)) for one in self.questions]
+        gained = [one.nats(after[one.kept.tobytes()]) - one.nats(self._fisher(one)) for one in self.questions]
         return np.column_stack(gained)
 
     def strengths(self) -> list[float]:
         """`strength` of each question by now."""
-        return [float(one.strength(self._by_now(one))) for one in self.questions]
+        return [float(one.strength(self._fisher(one))) for one in self.questions]
 
-    def _by_now(self, one: Question) -> Matrix:
+    def _fisher(self, one: Question) -> Matrix:
         """Information of the tests that count for a question."""
         return self._known[one.kept.tobytes()].information
 
@@ -174,7 +174,7 @@ class Inquiry:
         for key, known in self._known.items():
             kept = _some(tests, np.frombuffer(key, bool))
             if kept.rows.size:
-                self._known[key] = known.after(kept)
+                self._known[key] = known.posterior(kept)
 
 
 def _some(tests: Tested, kept: NDArray[np.bool_]) -> Tested:

@@ -89,7 +89,7 @@ def _some(values: NDArray[np.float64], most: int) -> NDArray[np.float64]:
     return values[np.unique(np.linspace(0, values.size - 1, min(most, values.size)).round().astype(int))]
 
 
-def with_strain(observed: Observations) -> Observations:
+def fill_strain(observed: Observations) -> Observations:
     """The same tests with amplitudes relative to the usual one, where the table has none."""
     if observed.amplitude is not None:
         return observed
@@ -112,7 +112,7 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
     # A new specimen has no row yet: it takes the geometry of the last one.
     like = np.array([np.flatnonzero(observed.specimen == min(s, len(names) - 2))[0] for s in specimen])
     course: dict[str, Any] = {
-        name: _after(observed, name, specimen)
+        name: _coming_column(observed, name, specimen)
         for name in ("order", "cycles", "time_step")
         if getattr(observed, name) is not None
     }
@@ -133,7 +133,7 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
     return replace(done, **both, names=names, whole=observed.table)
 
 
-def _after(observed: Observations, name: str, specimen: NDArray[np.int64]) -> NDArray[np.float64]:
+def _coming_column(observed: Observations, name: str, specimen: NDArray[np.int64]) -> NDArray[np.float64]:
     """A column for tests to come (n,): a specimen has borne all of its tests, a new one none; steps are as usual."""
     column = observed.known(name)
     if name == "time_step":
@@ -142,7 +142,7 @@ def _after(observed: Observations, name: str, specimen: NDArray[np.int64]) -> ND
     return np.array([*borne, column.min()])[specimen]
 
 
-def at_half_strain(table: Observations) -> NDArray[np.bool_]:
+def half_strain_rows(table: Observations) -> NDArray[np.bool_]:
     """Rows of tests at half the usual strain (N,)."""
     strain = table.known("amplitude")
     return np.asarray(strain < 0.5 * (1.0 + HALF) * np.median(strain))
@@ -156,7 +156,7 @@ def noise_of(noise: Noise, observed: Observations, table: Observations) -> Noise
         for t in observed.isotherms:
             wide[:, table.isotherm == t] = known[:, observed.isotherm == t].mean(axis=1, keepdims=True)
         wide[:, : observed.size] = known
-    conditions = np.column_stack([table.specimen, table.isotherm, at_half_strain(table)])[observed.size :]
+    conditions = np.column_stack([table.specimen, table.isotherm, half_strain_rows(table)])[observed.size :]
     sweep = np.unique(conditions, axis=0, return_inverse=True)[1].ravel()
     block = np.concatenate([noise.block, noise.block.max() + 1 + sweep])
     return replace(noise, within=within, shared=shared, block=block, discrepancy=None)
@@ -172,7 +172,7 @@ def scatter_of(within: NDArray, shared: NDArray, block: NDArray) -> NDArray[np.f
 def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: Costs) -> Iterator[Sweep]:
     """Sweeps of all specimens, made of the rows of `table` behind those of `observed`; `noise` is that of all N."""
     first = observed.size
-    halved = at_half_strain(table)
+    halved = half_strain_rows(table)
     groups: dict[tuple, dict[float, int]] = {}
     for row in range(first, table.size):
         key = (int(table.specimen[row]), float(table.isotherm[row]), bool(halved[row]))
@@ -188,7 +188,7 @@ def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: 
             yield Sweep(name, temperature, chosen, half, Tested(at, scatter), hours)
 
 
-def on_metal(observed: Observations) -> Observations:
+def metal_tests(observed: Observations) -> Observations:
     """Tests of a metal specimen, one row for each of the frequencies tested (at most eight)."""
     tested, first = np.unique(observed.frequency, return_index=True)
     at = first[np.isin(tested, frequencies(observed))]

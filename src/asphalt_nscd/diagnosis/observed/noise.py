@@ -29,7 +29,7 @@ class Noise:
     freedom: int
     discrepancy: NDArray | None = None
 
-    def beside(self, factor: NDArray) -> Noise:
+    def add_discrepancy(self, factor: NDArray) -> Noise:
         """This noise with another discrepancy beside its own; `factor` (2n, q) is that of its covariance."""
         both = factor if self.discrepancy is None else np.hstack([self.discrepancy, factor])
         return replace(self, discrepancy=both)
@@ -48,7 +48,7 @@ class Noise:
         white = np.concatenate([self._whitened(0, values.real), self._whitened(1, values.imag)])
         if self.discrepancy is None:
             return white
-        taken, _ = self._beside
+        taken, _ = self._whitened_discrepancy
         return white - taken @ (taken.T @ white)
 
     def _whitened(self, part: int, values: NDArray) -> NDArray:
@@ -71,7 +71,7 @@ class Noise:
         return out
 
     @cached_property
-    def _beside(self) -> tuple[NDArray, Vector]:
+    def _whitened_discrepancy(self) -> tuple[NDArray, Vector]:
         """T (2n, q) and s^2 (q,): with F the discrepancy's factor whitened by the scatter alone and s its singular
         values, 1 - T T^T is the inverse root of 1 + F F^T.
         """
@@ -93,4 +93,4 @@ class Noise:
             + float(np.log1p(np.bincount(self.block, (shared / within) ** 2)).sum())
             for within, shared in zip(self.within, self.shared, strict=True)
         )
-        return own + float(np.log1p(self._beside[1]).sum())
+        return own + float(np.log1p(self._whitened_discrepancy[1]).sum())

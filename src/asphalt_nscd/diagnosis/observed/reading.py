@@ -14,7 +14,7 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.files.csvinput import Limits, Table, read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import choice
-from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures, with_sweeps_apart
+from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures, separate_sweeps
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, PICKED, is_reduced, reduced_frame
 from asphalt_nscd.measurements.signs import wrong_sign
@@ -64,7 +64,7 @@ def read_observations(
         )
     reduced = is_reduced(table.columns)  # before: peaks stand beside the moduli
     if reduced:
-        table = _without(table, (name for name in PEAKS if not any(table.columns[name])))
+        table = _drop_columns(table, (name for name in PEAKS if not any(table.columns[name])))
     if len(table.lines) > MOST_ROWS:
         raise InputError(
             f"{path}: {len(table.lines)} rows; give at most {MOST_ROWS}, for example one mix at a time."
@@ -86,7 +86,7 @@ def read_observations(
             f"{test_type} test, or {way}."
         )
     if reduced:
-        table = _without(table, PEAKS)
+        table = _drop_columns(table, PEAKS)
     frame = reduced_frame(table, geometry, tests=(*KEYS, *distinguishing))
     names, specimen = np.unique(frame["specimen"], return_inverse=True)
     geometries = read_geometry(geometry, names)
@@ -96,7 +96,7 @@ def read_observations(
     temperature, frequency = frame["temperature_C"].to_numpy(float), frame["frequency_Hz"].to_numpy(float)
     nominal = nominal_temperatures(table, temperature)
     if "nominal_temperature_C" not in table.columns:
-        nominal = with_sweeps_apart(nominal, specimen)
+        nominal = separate_sweeps(nominal, specimen)
     isotherm = temperature if (nominal == temperature).all() else nominal
     # T 378 sets strains from peak to peak, and displacements elsewhere are amplitudes.
     strain = table.numbers_or_nan("microstrain") * HALF_MICRO
@@ -105,7 +105,7 @@ def read_observations(
         specimen=specimen,
         names=tuple(str(name) for name in names),
         temperature=temperature,
-        frequency=_as_set(frequency, specimen, isotherm),
+        frequency=_nominal_frequencies(frequency, specimen, isotherm),
         modulus=frame["E_MPa"].to_numpy(float)
         * 1e6
         * np.exp(1j * np.radians(frame["phase_deg"].to_numpy(float))),
@@ -136,7 +136,7 @@ def read_observations(
     return observed, origins[0] if len(origins) == 1 else "mixed: " + ", ".join(origins)
 
 
-def _as_set(frequency: np.ndarray, specimen: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+def _nominal_frequencies(frequency: np.ndarray, specimen: np.ndarray, temperature: np.ndarray) -> np.ndarray:
     """Frequencies of a grid as set: measured ones scatter by a per cent; a fine sweep is left as it is."""
     grouped = _grouped(frequency, 0.015)
     tests = np.column_stack([specimen, temperature, frequency])
@@ -156,7 +156,7 @@ def _grouped(values: np.ndarray, apart: float) -> np.ndarray:
     return set_to
 
 
-def _without(table: Table, names: Iterable[str]) -> Table:
+def _drop_columns(table: Table, names: Iterable[str]) -> Table:
     left_out = set(names)
     return replace(table, columns={k: v for k, v in table.columns.items() if k not in left_out})
 

@@ -55,7 +55,7 @@ def estimate(observed: Observations, nuisance: NDArray, scales: Vector) -> Noise
     block = _blocks(observed)
     within, shared, sigmas = [], [], []
     for residual in (modulus, phase):
-        size = _by_isotherm(residual, observed.isotherm, share)
+        size = _isotherm_scatter(residual, observed.isotherm, share)
         single, common = _components(residual / size, block, share)
         single = max(single, FLOOR**2)
         within.append(np.sqrt(single) * size)
@@ -77,7 +77,7 @@ def _blocks(observed: Observations) -> NDArray[np.int64]:
     return np.unique(pairs, axis=0, return_inverse=True)[1].ravel()
 
 
-def _by_isotherm(residual: Vector, temperature: Vector, share: float) -> Vector:
+def _isotherm_scatter(residual: Vector, temperature: Vector, share: float) -> Vector:
     """Scatter (n,) of each isotherm over the mean one; ones where they differ by no more than chance."""
     isotherms, label, count = np.unique(temperature, return_inverse=True, return_counts=True)
     variance = np.bincount(label, residual**2) / count

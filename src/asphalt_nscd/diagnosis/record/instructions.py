@@ -28,9 +28,9 @@ from asphalt_nscd.diagnosis.record import rungs
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.words.order_words import Context, Open, Order, act, purpose, reasons
-from asphalt_nscd.diagnosis.words.sentences import an, typed
+from asphalt_nscd.diagnosis.words.sentences import article, typed
 from asphalt_nscd.diagnosis.words.unexplained import size_left
-from asphalt_nscd.diagnosis.written import as_sure, shown, three_digits, widening
+from asphalt_nscd.diagnosis.written import round_to_interval, shown, three_digits, widening
 from asphalt_nscd.files.words import joined, specimen_named
 
 MOST = 5
@@ -55,7 +55,7 @@ def instructions(
     checks = fixed_orders.gauges(done, costs)
     first = [*(ahead or []), *checks]
     first += [] if diagnosis.replicated else fixed_orders.second_specimen(done, costs)
-    last = fixed_orders.more_temperatures(done, costs) if diagnosis.replicated else []
+    last = fixed_orders.order_temperatures(done, costs) if diagnosis.replicated else []
     told = []
     for k, one in enumerate(choose(model, questions)):
         why = reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality))
@@ -124,7 +124,7 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
     found: list[Open] = []
     rivals = {rung.candidate.key: {one.key for one in rung.rivals} for rung in diagnosis.ladder.rungs}
     for k in active:
-        found += _of_named(diagnosis, model, k, active)
+        found += _named_questions(diagnosis, model, k, active)
         named = model.candidates[k]
         for j, other in others:
             question = Question(k, _amplitude(named), (*active, j), TOLD_APART, everything)
@@ -134,7 +134,7 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
     for n, departure in enumerate(model.departures):
         question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART, everything)
         found.append(
-            Open(departure.kind, question, *_of_departure(diagnosis, departure), departure=departure)
+            Open(departure.kind, question, *_departure_words(diagnosis, departure), departure=departure)
         )
     places = Counter(candidate.cause.name for candidate in model.candidates)
     spread = diagnosis.ladder.estimates_spread  # by which an effect is harder to find
@@ -145,13 +145,13 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         # That a cause is there at all is shared by the places where it may be.
         chance = PRESENT / places[other.cause.name]
         question = Question(j, REACH / spread, active, FOUND, everything, chance)
-        hidden = max(float(question.strength(known)) - _by_limit(diagnosis, other), 0.0)
+        hidden = max(float(question.strength(known)) - _strength_by_limit(diagnosis, other), 0.0)
         about, size, short = _sized(other, REACH)
         found.append(Open("reach", question, about, size, other, hidden=hidden, short=short))
     return found
 
 
-def _of_departure(diagnosis: Diagnosis, one: Departure) -> tuple[str, str]:
+def _departure_words(diagnosis: Diagnosis, one: Departure) -> tuple[str, str]:
     """What a departure is, and what speaks of its size or of what new tests show if they are sound, in words."""
     if one.odd is not None:
         return levels.described(one.odd)[0], levels.if_sound(one.odd)
@@ -168,14 +168,14 @@ def _unexplained(diagnosis: Diagnosis, isotherm: float | None) -> str:
     return joined([size_left(one.part, size, scatter) for one, size in sizes if one.isotherm == isotherm])
 
 
-def _by_limit(diagnosis: Diagnosis, candidate: Candidate) -> float:
+def _strength_by_limit(diagnosis: Diagnosis, candidate: Candidate) -> float:
     """Strength of a typical effect in the tests done, by the detection limit; none where no effect shows."""
     ladder = diagnosis.ladder
     limit = ladder.limits.get(candidate.key, np.inf) * ladder.estimates_spread
     return float(((USUAL_THRESHOLD + Z_95) * REACH * candidate.typical[0] / limit) ** 2)
 
 
-def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, ...]) -> list[Open]:
+def _named_questions(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, ...]) -> list[Open]:
     """Does a named cause show without what it hangs on, and on metal?"""
     candidate = model.candidates[k]
     words, amplitude = words_of(candidate), _amplitude(candidate)
@@ -191,7 +191,7 @@ def _of_named(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, 
         question = Question(k, amplitude, active, FOUND, metal)
         value, error = rungs.amplitude(diagnosis, candidate)
         share = widening(diagnosis.ladder.estimates_spread) * CONFIDENCE * error / abs(value)
-        found.append(Open("metal", question, words, _on_metal(model, k, amplitude, share), candidate))
+        found.append(Open("metal", question, words, _metal_effect(model, k, amplitude, share), candidate))
     return found
 
 
@@ -206,7 +206,7 @@ def _parts(table: Observations, rows: int) -> Iterator[tuple[str, NDArray[np.boo
             yield words(value), np.concatenate([values != value, np.ones(rows - table.size, bool)])
 
 
-def _on_metal(model: Possible, k: int, amplitude: float, share: float) -> str:
+def _metal_effect(model: Possible, k: int, amplitude: float, share: float) -> str:
     """What a cause does on metal where it does most, to two digits, or those of its interval; share: this of that."""
     metal = np.arange(model.table.size, model.linear.nuisance.shape[0])
     effect = amplitude * model.linear.effects[metal, k]
@@ -216,7 +216,7 @@ def _on_metal(model: Possible, k: int, amplitude: float, share: float) -> str:
     if abs(effect[at].imag) > abs(effect[at].real):
         value, unit = float(np.degrees(effect[at].imag)), "deg of phase"
     half = max(share * abs(value), 10.0 ** np.floor(np.log10(abs(value))))
-    size = f"{as_sure(value, half)} {unit}"
+    size = f"{round_to_interval(value, half)} {unit}"
     every = most.size == effect.size > 1
     return f"{size} at {'every frequency' if every else f'{model.metal_frequencies[at]:g} Hz'}"
 
@@ -239,6 +239,6 @@ def _sized(candidate: Candidate, typical: float) -> tuple[str, str, str]:
     value, unit = shown(typical * first.typical, first.unit)
     size = f"{three_digits(value)} {typed(unit)}"
     if cause.plain is None:
-        return f"{an(cause.name.replace('_', ' '))} of {size}", size, ""
+        return f"{article(cause.name.replace('_', ' '))} of {size}", size, ""
     short, rest = cause.plain
     return f"{short} {rest.format(size)}", size, short

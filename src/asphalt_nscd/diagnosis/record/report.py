@@ -15,20 +15,20 @@ from asphalt_nscd.diagnosis.model.heldout import HeldOut
 from asphalt_nscd.diagnosis.model.joint import Joint
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.scatter import STATED
-from asphalt_nscd.diagnosis.record.rungs import of_cause, of_law
+from asphalt_nscd.diagnosis.record.rungs import cause_rung, law_rung
 from asphalt_nscd.diagnosis.screening.excess_phase import excess_phases
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, cell_residuals
-from asphalt_nscd.diagnosis.simulation.gain import by_tests_alone, errors, simulated_by, with_burgers_laws
+from asphalt_nscd.diagnosis.simulation.gain import burgers_prediction, errors, joint_alone, simulated_by
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import CONFINED_TO, SCHEMA_VERSION, UNITS, name_at, widening
 
 
-def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
+def diagnosis_content(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
     """Content of `diagnosis.json` (schema: diagnosis.schema.yaml beside this file)."""
-    ladder, held = [], HeldOut(by_tests_alone(diagnosis))
+    ladder, held = [], HeldOut(joint_alone(diagnosis))
     if diagnosis.relaxation_spectrum:
-        ladder.append(of_law(diagnosis, specimen, held))
-    ladder += [of_cause(diagnosis, rung, specimen, held) for rung in diagnosis.ladder.rungs]
+        ladder.append(law_rung(diagnosis, specimen, held))
+    ladder += [cause_rung(diagnosis, rung, specimen, held) for rung in diagnosis.ladder.rungs]
     spread = diagnosis.ladder.estimates_spread
     wide = (
         f"These tests lie {spread:.1f} times as far from the free master curve as their scatter suggests. Intervals "
@@ -56,12 +56,12 @@ def as_json(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]
             "law": "burgers",
             "parameters": _burgers_parameters(diagnosis),
             "p_value": diagnosis.baseline_p,
-            **errors(diagnosis, with_burgers_laws(diagnosis, specimen)),
+            **errors(diagnosis, burgers_prediction(diagnosis, specimen)),
         },
         "ladder": ladder,
         "withdrawn": [name_at(*rung.candidate.key) for rung in diagnosis.ladder.withdrawn],
         "indistinguishable": _indistinguishable(diagnosis),
-        "not_testable": _not_testable(diagnosis),
+        "not_testable": _untestable_causes(diagnosis),
         "detection_limits": _limits(diagnosis),
         "detection_limits_of_one_place": _limits_of_one_place(diagnosis),
         "estimates": _estimates(diagnosis),
@@ -128,7 +128,7 @@ def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
     rivals = [(rung.candidate, *rung.rivals) for rung in diagnosis.ladder.rungs if rung.rivals]
     groups = (*rivals, *diagnosis.ladder.alike)
     out = [[name_at(*candidate.key) for candidate in group] for group in groups]
-    possible = [cause for cause in CATALOGUE if cause.on_bench(diagnosis.observed)]
+    possible = [cause for cause in CATALOGUE if cause.possible_on_bench(diagnosis.observed)]
     limited = {name for name, _ in diagnosis.ladder.limits}
     out += [
         list(cause.alike)
@@ -138,7 +138,7 @@ def _indistinguishable(diagnosis: Diagnosis) -> list[list[str]]:
     return out
 
 
-def _not_testable(diagnosis: Diagnosis) -> list[dict[str, str]]:
+def _untestable_causes(diagnosis: Diagnosis) -> list[dict[str, str]]:
     observed, ladder = diagnosis.observed, diagnosis.ladder
     none = [cause for cause in CATALOGUE if not cause.places(observed)]
     out = [(cause.name, cause.needs or "more frequencies and temperatures") for cause in none]

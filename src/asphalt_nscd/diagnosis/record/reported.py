@@ -123,7 +123,7 @@ def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
     return curve.drop(columns="within_the_tests")
 
 
-def with_law(curve: pd.DataFrame, law: Spectrum, uncertainty: Uncertainty | None) -> pd.DataFrame:
+def add_law_columns(curve: pd.DataFrame, law: Spectrum, uncertainty: Uncertainty | None) -> pd.DataFrame:
     """The master curve with columns law_... of a law beside it, and its 95 % interval where that is known."""
     omega, temperature = 2.0 * np.pi * curve["frequency_Hz"].to_numpy(), curve["temperature_C"].to_numpy()
     star = law.complex_modulus(omega, temperature)

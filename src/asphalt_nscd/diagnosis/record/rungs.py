@@ -17,16 +17,18 @@ from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
 from asphalt_nscd.diagnosis.written import interval_95, name_at, widening
 
 
-def of_cause(diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
+def cause_rung(
+    diagnosis: Diagnosis, rung: Rung, specimen: NumericalSpecimen, held: HeldOut
+) -> dict[str, Any]:
     """A rung of the ladder as diagnosis.json has it: what a cause gains in sample and on tests left out."""
     observed = diagnosis.observed
     before, after = (gain.nearest(diagnosis, fitted, specimen) for fitted in (rung.before, rung.after))
-    in_sample, held_out = gain.before_and_after(diagnosis, before, after), {}
+    in_sample, held_out = gain.compare_errors(diagnosis, before, after), {}
     for part, count in (("isotherm", observed.isotherms.size), ("frequency", observed.frequencies.size)):
         # Of two, the one that is left predicts nothing: it has no slope, or no shift.
         if count > 2:
             before, after = (held.predictions(fitted, part) for fitted in (rung.before, rung.after))
-            errors = gain.before_and_after(diagnosis, before, after, inner=part == "isotherm")
+            errors = gain.compare_errors(diagnosis, before, after, inner=part == "isotherm")
             held_out[f"leave_one_{part}_out"] = errors
     return {
         "cause": rung.candidate.cause.name,
@@ -67,23 +69,23 @@ def _parameters(diagnosis: Diagnosis, candidate: Candidate) -> dict[str, dict[st
     return found
 
 
-def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
+def law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> dict[str, Any]:
     """The first rung: one continuous spectrum for all temperatures instead of a Burgers law for each."""
     ladder, observed = diagnosis.ladder, diagnosis.observed
     spectrum, fitted = ladder.joint.spectrum, ladder.fitted
-    before = gain.with_burgers_laws(diagnosis, specimen)
+    before = gain.burgers_prediction(diagnosis, specimen)
     after = gain.nearest(diagnosis, ladder.start, specimen)  # one law for all temperatures, without causes
     held_out, parameters = {}, {}
     if observed.isotherms.size > 2:
         # A Burgers law says nothing of another temperature: before is its fit, which has seen the data.
         predicted = held.predictions(ladder.start, "isotherm")
-        held_out["leave_one_isotherm_out"] = gain.before_and_after(diagnosis, before, predicted, inner=True)
+        held_out["leave_one_isotherm_out"] = gain.compare_errors(diagnosis, before, predicted, inner=True)
         # Two isotherms have one shift between them; one has none.
         parameters = _shift_constants(spectrum, fitted, widening(ladder.estimates_spread))
     if observed.frequencies.size > 2:
         without_law = HeldOut(diagnosis.baseline_joint).predictions(diagnosis.baseline, "frequency")
         predicted = held.predictions(ladder.start, "frequency")
-        held_out["leave_one_frequency_out"] = gain.before_and_after(diagnosis, without_law, predicted)
+        held_out["leave_one_frequency_out"] = gain.compare_errors(diagnosis, without_law, predicted)
     # As the last fit has them: a delay, say, that is not yet taken would be taken for relaxation.
     shift = spectrum.log_shift(fitted.law, observed.isotherms)[0] / LN10
     return {
@@ -92,7 +94,7 @@ def of_law(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -> 
         "parameters": parameters | {"reference_temperature": _value(spectrum.reference_temperature, "degC")},
         "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
         "p_value": diagnosis.baseline_p,
-        "gain": {"in_sample": gain.before_and_after(diagnosis, before, after), "held_out": held_out},
+        "gain": {"in_sample": gain.compare_errors(diagnosis, before, after), "held_out": held_out},
         "as_good": [],
         "established": not diagnosis.too_few,
         "hangs_on": [],

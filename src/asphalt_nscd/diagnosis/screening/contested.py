@@ -30,7 +30,7 @@ def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[n
     out; returns tests (n,) to leave out, and tests (n,) of turned sweeps.
     """
     now, turned = out.copy(), np.zeros(observed.size, bool)
-    block, apart = blocks(observed), _from_level(observed)
+    block, apart = blocks(observed), _level_distance(observed)
     for one in np.unique(block[out]):
         rows = np.flatnonzero(block == one)
         distance = apart[rows]
@@ -55,7 +55,7 @@ def masked(observed: Observations, out: NDArray[np.bool_], doubtful: NDArray[np.
     block, found = blocks(observed), np.zeros(observed.size, bool)
     sweeps = [np.flatnonzero(block == one) for one in np.unique(block[doubtful])]
     while sweeps:
-        apart = _from_level(observed, out | found)
+        apart = _level_distance(observed, out | found)
         clear = [
             rows
             for rows in sweeps
@@ -79,7 +79,7 @@ def _two_stand_out(distance: NDArray[np.float64], doubtful: NDArray[np.bool_]) -
     return bool(some and largest > FAR and distance[~off].max() < CLEARLY_NEAR * largest)
 
 
-def _from_level(observed: Observations, out: NDArray[np.bool_] | None = None) -> NDArray[np.float64]:
+def _level_distance(observed: Observations, out: NDArray[np.bool_] | None = None) -> NDArray[np.float64]:
     """How far (n,) a test is off the other specimens at its condition, in usual departures of the table.
 
     What the specimen is off by on its other isotherms, a level and a phase, is taken off first. Zero where no other

@@ -17,7 +17,7 @@ from scipy.special import stdtrit
 
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.scatter import median_by
-from asphalt_nscd.diagnosis.written import with_interval
+from asphalt_nscd.diagnosis.written import interval_text
 from asphalt_nscd.files.words import specimen_named
 
 Vector = NDArray[np.float64]
@@ -43,7 +43,7 @@ ONE_MIX = 25.0  # percent by which specimens of one mix hardly differ; T 378 exp
 def odd(observed: Observations) -> list[dict[str, Any]]:
     """Isotherms whose |E*| is off the level of their specimen: specimen, temperature_C and factor of each."""
     level = _levels(observed, observed.logarithm.real)
-    found = _beyond_the_median(level) | _told_apart(level, NEAR, 1)
+    found = _far_levels(level) | _told_apart(level, NEAR, 1)
     return [
         {"specimen": observed.names[k], "temperature_C": t, "factor": float(np.exp(value))}
         for (k, t), value in sorted(found.items())
@@ -87,7 +87,7 @@ def odd_temperatures(
                 change / slope
                 for change, slope in zip(
                     (np.log(level["factor"]), phase["phase_deg"]),
-                    _per_kelvin(observed, level["temperature_C"]),
+                    _isotherm_slopes(observed, level["temperature_C"]),
                     strict=True,
                 )
             )
@@ -99,7 +99,7 @@ def odd_temperatures(
     return found
 
 
-def with_confined(
+def merge_confined(
     phases: list[dict[str, Any]], temperatures: list[dict[str, Any]], confined: Sequence[Mapping[str, Any]]
 ) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     """Odd phases and temperatures, those told beside the last fit in place of others of the same place."""
@@ -112,7 +112,7 @@ def with_confined(
     )
 
 
-def _per_kelvin(observed: Observations, temperature: float) -> tuple[float, float]:
+def _isotherm_slopes(observed: Observations, temperature: float) -> tuple[float, float]:
     """Change of ln|E*| and of the phase [deg] per kelvin at an isotherm, between those beside it."""
     at = int(np.searchsorted(observed.isotherms, temperature))
     ends = observed.isotherms[[max(at - 1, 0), min(at + 1, observed.isotherms.size - 1)]]
@@ -144,7 +144,7 @@ def _levels(observed: Observations, values: Vector) -> dict[Place, float]:
     return level
 
 
-def _beyond_the_median(level: Mapping[Place, float]) -> dict[Place, float]:
+def _far_levels(level: Mapping[Place, float]) -> dict[Place, float]:
     """Levels FAR from the median of their specimen's, and DEVIATIONS times as far as is usual."""
     own = {k: [value for (other, _), value in level.items() if other == k] for k, _ in level}
     left = {
@@ -240,7 +240,7 @@ def sentences(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> lis
     return [f"{what}: check {check}" for what, check in map(described, [*levels, *phases])]
 
 
-def of_temperatures(found: Iterable[Mapping[str, Any]]) -> list[str]:
+def temperature_notes(found: Iterable[Mapping[str, Any]]) -> list[str]:
     """What `odd_temperatures` found and what to check first, a sentence each without its full stop."""
     return [
         f"at {one['temperature_C']:g} degC {specimen_named(one['specimen'])} seems {_size(one, 'kelvin', '.2g')} K "
@@ -250,7 +250,7 @@ def of_temperatures(found: Iterable[Mapping[str, Any]]) -> list[str]:
     ]
 
 
-def of_exchanged(levels: Sequence[Mapping[str, Any]], temperatures: Sequence[Mapping[str, Any]]) -> list[str]:
+def swap_notes(levels: Sequence[Mapping[str, Any]], temperatures: Sequence[Mapping[str, Any]]) -> list[str]:
     """Sweeps that look as if each stood in the other's place, a sentence each without its full stop."""
     found = []
     for one, other in combinations(temperatures, 2):
@@ -302,7 +302,7 @@ def _size(one: Mapping[str, Any], key: str, digits: str, factor: float = 1.0) ->
     if "interval_95" not in one:
         return f"{value:{digits}}"
     low, high = one["interval_95"]
-    return with_interval(value, 0.5 * factor * (high - low))
+    return interval_text(value, 0.5 * factor * (high - low))
 
 
 def if_sound(one: Mapping[str, Any]) -> str:

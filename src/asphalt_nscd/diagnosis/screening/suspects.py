@@ -102,7 +102,7 @@ def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspe
         # Nothing else is judged beside them: they would bend the others, and the scatter with them.
         kept = np.setdiff1d(np.arange(observed.size), list(tens))
         rest = [replace(one, row=int(kept[one.row])) for one in find(observed.subset(kept))]
-        slipped = [Suspect(row, (_of_ten(observed, row, size),), False) for row, size in tens.items()]
+        slipped = [Suspect(row, (_decimal_slip(observed, row, size),), False) for row, size in tens.items()]
         return sorted([*rest, *slipped], key=lambda one: one.row)
     loo = loo or within_isotherm.leave_one_out(observed)
     broken = np.isin(observed.isotherm, _broken_temperatures(observed, loo))
@@ -119,14 +119,14 @@ def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspe
     left = np.column_stack([logarithm.real, logarithm.imag]) - loo.expected
     copied_blocks = list(copied(observed))
     copies = np.isin(np.arange(observed.size), [row for one in copied_blocks for row in one.rows])
-    apart, chance = _from_replicates(observed, loo.in_place & ~copies)
+    apart, chance = _replicate_distance(observed, loo.unexchanged & ~copies)
     denied = (apart != 0.0).any(axis=1) & (chance.min(axis=1) * values > IN_PLACE)
     strong = worst < STRONG * limit
     shared = _shared(observed, loo, strong, left)
     strong &= ~denied | (worst < DENIED * limit)
-    out = (strong & ~shared) | (against.any(axis=1) & flagged) | ~loo.in_place | copies
+    out = (strong & ~shared) | (against.any(axis=1) & flagged) | ~loo.unexchanged | copies
     # What is already out is no replicate of the others.
-    apart, chance = _from_replicates(observed, ~out)
+    apart, chance = _replicate_distance(observed, ~out)
     far = chance * values < FAR
     # Where a whole isotherm breaks, causality accuses sound tests too and is no second witness.
     agree = (np.sign(apart) == np.sign(left)) & ~broken[:, None]
@@ -135,7 +135,7 @@ def find(observed: Observations, loo: LooPrediction | None = None) -> list[Suspe
     out, turned = contested.put_right(observed, out)
     hidden = contested.masked(observed, out, worst < LEANING)
     out, turned = out | hidden, turned | hidden
-    listed = ((out & loo.in_place & ~copies) | (worst < NOTABLE * limit)) & ~turned
+    listed = ((out & loo.unexchanged & ~copies) | (worst < NOTABLE * limit)) & ~turned
     # Beside a wrong phase the modulus seems wrong too: the less likely of the two is named, or the one with a witness.
     wrong = np.where(supported | ~supported.any(axis=1, keepdims=True), single, 1.0).argmin(axis=1)
     found = []
@@ -185,7 +185,7 @@ def broken_isotherms(
     error = np.degrees(np.hypot(own_error, loo.scatter[:, 1]))
     broken, found = _broken_temperatures(observed, loo), []
     for temperature in np.union1d(broken, list(torn)):
-        rows = np.isfinite(required) & loo.in_place & (observed.isotherm == temperature)
+        rows = np.isfinite(required) & loo.unexchanged & (observed.isotherm == temperature)
         if temperature not in broken and not _contradicts(difference[rows], error[rows]):
             continue
         frequency, at = np.unique(observed.frequency[rows], return_inverse=True)
@@ -221,7 +221,7 @@ def _required(observed: Observations, loo: LooPrediction) -> tuple[NDArray, NDAr
 
 def one_sided(observed: Observations, loo: LooPrediction) -> str:
     """A sentence where at least half of the phases lie, beyond error, on one side of what |E*| requires; else empty."""
-    rows = loo.judged & loo.in_place
+    rows = loo.judged & loo.unexchanged
     apart = np.degrees(observed.logarithm.imag - loo.required)[rows]
     far = np.abs(apart) > 2.0 * np.degrees(loo.required_error[rows])
     for side, there in (("higher", far & (apart > 0.0)), ("lower", far & (apart < 0.0))):
@@ -284,7 +284,7 @@ def _singled_out(observed: Observations) -> list[list[str]]:
     return sentences
 
 
-def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[NDArray, NDArray]:
+def _replicate_distance(observed: Observations, kept: NDArray[np.bool_]) -> tuple[NDArray, NDArray]:
     """How far ln|E*| and phase (n, 2) are from at least two kept replicates, and the chance of that.
 
     Level and mean phase of each specimen's isotherm are taken off. The scatter is that of the isotherm without the
@@ -324,7 +324,7 @@ def _from_replicates(observed: Observations, kept: NDArray[np.bool_]) -> tuple[N
     return apart, chance
 
 
-def _of_ten(observed: Observations, row: int, expected: float) -> str:
+def _decimal_slip(observed: Observations, row: int, expected: float) -> str:
     return (
         f"|E*| {abs(observed.modulus[row]) / 1e6:.0f} MPa, expected about {expected / 1e6:.0f} MPa from its phase and "
         "the other frequencies; look for a misplaced decimal point"

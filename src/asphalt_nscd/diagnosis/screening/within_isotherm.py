@@ -71,7 +71,7 @@ class LooPrediction:
     exchanged: tuple[Exchange, ...] = ()
 
     @property
-    def in_place(self) -> NDArray[np.bool_]:
+    def unexchanged(self) -> NDArray[np.bool_]:
         """(n,) tests whose readings are not exchanged."""
         return ~np.isin(np.arange(self.judged.size), [row for one in self.exchanged for row in one.rows])
 

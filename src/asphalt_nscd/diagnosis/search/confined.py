@@ -34,7 +34,7 @@ from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate, Reduced
 from asphalt_nscd.diagnosis.model.probability import log_odds, odds_of, shares
 from asphalt_nscd.diagnosis.observed.noise import Noise
 from asphalt_nscd.diagnosis.search.with_discrepancy import Survey
-from asphalt_nscd.diagnosis.written import interval_95, with_interval
+from asphalt_nscd.diagnosis.written import interval_95, interval_text
 
 OFFSET, DELAY, ISOTHERM, SWEEP = CONFINED  # in the order of criteria
 # Discrepancy and laboratory take up a part of each fault, which a linear limit leaves out. Of 12 faults at it in four
@@ -79,7 +79,7 @@ class Odd:
             return {"specimen": self.specimen, **at, **phase, **how_sure}
         side = "above" if self.size > 0.0 else "below"
         sentence = (
-            f"At {self.isotherm:g} degC all phases are {with_interval(abs(self.size), 0.5 * (high - low))} deg {side} "
+            f"At {self.isotherm:g} degC all phases are {interval_text(abs(self.size), 0.5 * (high - low))} deg {side} "
             "what |E*| and the other temperatures require."
         )
         return {**at, "offset_deg": self.size, "sentence": sentence, **how_sure}
@@ -98,7 +98,7 @@ class _Beside:
         few = np.where(self.model.processes.usual < 1.0, discrepancy.LEAST, 1.0)
         return _likelier(self.model, None, few)
 
-    def without(self, direction: NDArray, amplitude: float) -> _Beside:
+    def remove_fault(self, direction: NDArray, amplitude: float) -> _Beside:
         """With a fault taken off the tests; direction (2n,) whitened."""
         off = amplitude * direction
         linear = replace(
@@ -115,11 +115,11 @@ def find(state: State, surveyed: Survey) -> tuple[list[Odd], list[float], list[O
     Returns the faults likelier than not, the likeliest first; torn isotherms [degC], once these are taken off; and
     every fault that the table can show, at its detection limit.
     """
-    beside, noise = _beside(state)
+    beside, noise = _linear_start(state)
     every, effects = _effects(state)
     places, directions = list(every), noise.whiten(effects)
     whitened = directions
-    named = _of_catalogue(state, surveyed)
+    named = _catalogue_odds(state, surveyed)
     found: list[Odd] = []
     while len(found) < MOST_CAUSES and places:
         judged = list(_judged(beside, places, whitened))
@@ -129,19 +129,19 @@ def find(state: State, surveyed: Survey) -> tuple[list[Odd], list[float], list[O
             break
         _, k, odd, amplitude = judged[best]
         found.append(replace(odd, probability=float(share[best])))
-        beside = beside.without(whitened[:, k], amplitude)
+        beside = beside.remove_fault(whitened[:, k], amplitude)
         del places[k]
         whitened = np.delete(whitened, k, axis=1)
     torn = _torn(beside, state.plain.observed.held_isotherms)
     return found, torn, _limits(beside, every, directions)
 
 
-def _beside(state: State) -> tuple[_Beside, Noise]:
+def _linear_start(state: State) -> tuple[_Beside, Noise]:
     """Beside what a laboratory adds, in sizes that are estimated anew: a fault would have enlarged them."""
     at = state.fitted
     if state.plain.observed.isotherms.size < 2:
         return _Beside(state.linear, state.model), state.plain.noise
-    joint = laboratory.of_single_tests(state.plain, at)
+    joint = laboratory.isotherm_noise_model(state.plain, at)
     linear = joint.linearise(at.law, at.scales, at.active)
     return _Beside(linear, likelihood.reduce(laboratory.processes(joint, linear)[0], linear)), joint.noise
 
@@ -233,16 +233,16 @@ def _likelier(model: Reduced, cause: Direction | None, start: NDArray) -> Estima
     return min(tried, key=lambda estimate: estimate.misfit)
 
 
-def _of_catalogue(state: State, surveyed: Survey) -> list[float]:
+def _catalogue_odds(state: State, surveyed: Survey) -> list[float]:
     """ln odds of each cause that is not named, at its best place and shape."""
     nothing = likelihood.estimate(state.model, None, state.variances).misfit
     best: dict[tuple, float] = {}
     for candidate, one in zip(surveyed.candidates, surveyed.estimates, strict=True):
         first = candidate.cause.parameters[0]
         size = float(np.clip(one.amplitude * first.typical, first.low, first.high))
-        # `of_shapes` would ask for a fit of each shape: here each costs two (Akaike).
+        # `shape_cost` would ask for a fit of each shape: here each costs two (Akaike).
         gain = nothing - one.misfit - 2.0 * (len(candidate.values) - 1)
-        taken = candidate.with_values(np.array([size, *candidate.values[1:]]))
+        taken = candidate.replace_values(np.array([size, *candidate.values[1:]]))
         odds = log_odds(taken, state.plain.observed, gain, one.std_error * first.typical)
         best[candidate.key] = max(odds, best.get(candidate.key, -np.inf))
     return list(best.values())

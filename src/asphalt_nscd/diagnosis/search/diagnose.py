@@ -14,7 +14,7 @@ from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAM
 from asphalt_nscd.diagnosis.model import chance, start
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.joint import Fitted, Joint
-from asphalt_nscd.diagnosis.model.laboratory import Laboratory, with_laboratory
+from asphalt_nscd.diagnosis.model.laboratory import Laboratory, add_laboratory
 from asphalt_nscd.diagnosis.model.probability import stated
 from asphalt_nscd.diagnosis.observed import copies, scatter
 from asphalt_nscd.diagnosis.observed.noise import Noise
@@ -116,10 +116,10 @@ def diagnose(
         )
     alone = noise
     joint, fitted = start.fit_spectrum(observed, noise)
-    wide, laboratory = with_laboratory(joint, fitted)
+    wide, laboratory = add_laboratory(joint, fitted)
     if laboratory is not None:
         noise = wide.noise
-        joint, fitted = start.of_likeliest_roughness(wide, fitted)
+        joint, fitted = start.fit_roughness(wide, fitted)
     # A law that cannot follow the tests leaves them to temperatures and mountings if it may.
     baseline_joint, baseline = start.fit_burgers_at_each(observed, alone)
     baseline_p = misfit_p_value(baseline, alone)
@@ -137,7 +137,7 @@ def diagnose(
     if observed.frequencies.size < 3:
         notes.append("Two frequencies: Burgers laws fit them exactly, so their misfit cannot be judged.")
     ladder = climb(joint, fitted, catalogue, draws, seed)
-    law_p = misfit_p_value(_by_scatter(ladder, noise), noise)
+    law_p = misfit_p_value(_nearest_fit(ladder, noise), noise)
     diagnosis = Diagnosis(
         observed,
         whole.subset(aside),
@@ -168,7 +168,7 @@ def diagnose(
         )
     if no_common_law and not ladder.rungs:
         diagnosis.verdict = "unexplained_structure"
-    notes += _at_bounds(ladder)
+    notes += _bound_notes(ladder)
     if diagnosis.verdict == "unexplained_structure":
         diagnosis.notes += causality.told(
             causality.contradictions(observed, ladder.fitted, noise), bool(ladder.rungs)
@@ -188,26 +188,26 @@ def _too_few(diagnosis: Diagnosis) -> str:
     return ""
 
 
-def _by_scatter(ladder: Ladder, noise: Noise) -> Fitted:
+def _nearest_fit(ladder: Ladder, noise: Noise) -> Fitted:
     """The last fit as near to the tests as it comes, its residuals in units of the scatter alone."""
     plain = Joint(ladder.joint.observed, ladder.joint.base, noise)
     return plain.fit(ladder.fitted.law, ladder.fitted.scales, ladder.fitted.active, CLOSE)
 
 
-def _at_bounds(ladder: Ladder) -> list[str]:
+def _bound_notes(ladder: Ladder) -> list[str]:
     """A sentence for each parameter of a named cause that stands at its physical bound."""
     if not ladder.rungs:
         return []
     return [
         f"{candidate.cause.name.replace('_', ' ')}: {parameter.name.replace('_', ' ')} stands at its bound of "
-        f"{_in_unit(value, parameter.unit)}, so that its standard error means nothing; the true one may lie beyond, "
+        f"{_unit_value(value, parameter.unit)}, so that its standard error means nothing; the true one may lie beyond, "
         "or the cause be another."
         for candidate in ladder.rungs[-1].after.active
-        for parameter, value in candidate.at_bounds
+        for parameter, value in candidate.pinned
     ]
 
 
-def _in_unit(value: float, unit: str) -> str:
+def _unit_value(value: float, unit: str) -> str:
     size, name = shown(value, unit)
     return f"{size:g} {name}".rstrip()
 

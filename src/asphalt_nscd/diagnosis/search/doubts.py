@@ -45,8 +45,11 @@ def find_doubts(
     table = Table(plain, fitted, sizes)
     for candidate in named:
         taken = active[candidate.key]
-        own = [*_of_size(taken, plain.observed), *_of_many(candidate, named, len(plain.observed.names))]
-        own += _beside_rivals(table, taken)
+        own = [
+            *_size_doubts(taken, plain.observed),
+            *_shared_doubts(candidate, named, len(plain.observed.names)),
+        ]
+        own += _rival_doubts(table, taken)
         # a cause that was found after a doubtful one was fitted beside it
         if not own and found:
             own = ["It was found after another cause that is itself not certain"]
@@ -55,15 +58,15 @@ def find_doubts(
     return found
 
 
-def _of_size(candidate: Candidate, observed: Observations) -> Iterator[str]:
+def _size_doubts(candidate: Candidate, observed: Observations) -> Iterator[str]:
     """A size at the bound of the search, and one that these tests cannot have."""
-    for parameter, value in candidate.at_bounds:
+    for parameter, value in candidate.pinned:
         unit = "" if parameter.unit in ("1", "-") else f" {parameter.unit}"
         yield f"Its {parameter.name.replace('_', ' ')} stands at the bound of {value:g}{unit}"
     yield from filter(None, [candidate.cause.impossible(np.array(candidate.values), observed)])
 
 
-def _of_many(candidate: Candidate, named: Sequence[Candidate], specimens: int) -> Iterator[str]:
+def _shared_doubts(candidate: Candidate, named: Sequence[Candidate], specimens: int) -> Iterator[str]:
     """A fault of one specimen that most of them would have to share; one isotherm after another that is off."""
     same = sum(one.cause.name == candidate.cause.name for one in named)
     if isinstance(candidate.place, str) and same > 1 and same >= MOST_SPECIMENS * specimens:
@@ -81,7 +84,7 @@ class Table:
         none = np.zeros(len(self.processes.described))
         self.variances = np.square(sizes) if len(sizes) else none
 
-    def without(self, candidate: Candidate) -> tuple[Fitted, NDArray, NDArray[np.complex128]]:
+    def drop_cause(self, candidate: Candidate) -> tuple[Fitted, NDArray, NDArray[np.complex128]]:
         """The fit with a cause taken out, its whitened direction (2n, 1), and what it does to ln E* (n,)."""
         linear = self.linear
         number = [one.key for one in linear.active].index(candidate.key)
@@ -94,7 +97,7 @@ class Table:
         effect = size * self.plain.direction(linear.law, linear.scales, linear.active, number, 0)
         return out, direction, effect
 
-    def beside(self, rest: Fitted, direction: NDArray | None, roots: Sequence[NDArray]) -> Estimate:
+    def estimate_beside(self, rest: Fitted, direction: NDArray | None, roots: Sequence[NDArray]) -> Estimate:
         """The cause estimated beside its discrepancy and further processes with these factors (n, rank).
 
         direction: whitened (2n, 1), of the cause; None for the processes in its place.
@@ -118,21 +121,21 @@ class Table:
         return min(tried, key=lambda one: one.misfit)
 
 
-def _beside_rivals(table: Table, candidate: Candidate) -> Iterator[str]:
-    rest, direction, effect = table.without(candidate)
+def _rival_doubts(table: Table, candidate: Candidate) -> Iterator[str]:
+    rest, direction, effect = table.drop_cause(candidate)
     if isinstance(candidate.place, float) and _followed(rest, direction):
         yield "A shift with temperature of unusual form looks the same"
-    alone = table.beside(rest, direction, ())
+    alone = table.estimate_beside(rest, direction, ())
     observed, sigma = table.plain.observed, table.plain.noise.sigma
     smooth = [
-        table.beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root))
+        table.estimate_beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root))
         for root in _smooth(table.plain)
     ]
     least = min(abs(one.z) for one in (alone, *smooth))
     known = [
         words
         for words, roots in _shaped(table.plain)
-        if table.beside(rest, None, roots).misfit < alone.misfit - TWENTY_TIMES
+        if table.estimate_beside(rest, None, roots).misfit < alone.misfit - TWENTY_TIMES
     ]
     if known:
         alike = " or ".join(known)
@@ -149,7 +152,7 @@ def _beside_rivals(table: Table, candidate: Candidate) -> Iterator[str]:
         parts = effect[:, None] * (label[:, None] == np.unique(label))
         parts = parts[:, np.abs(parts).max(axis=0) > 0.0]
         # Only where smooth rivals leave it enough: else weak evidence has been told already.
-        if parts.shape[1] > 1 and abs(table.beside(rest, direction, (parts,)).z) < ENOUGH <= least:
+        if parts.shape[1] > 1 and abs(table.estimate_beside(rest, direction, (parts,)).z) < ENOUGH <= least:
             yield f"Its size may differ between {words}"
 
 

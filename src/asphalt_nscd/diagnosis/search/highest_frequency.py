@@ -55,9 +55,9 @@ def explains_better(table: Table, candidate: Candidate) -> bool:
     """Whether such an error in a cause's place makes the tests 20 times as likely; False if frequencies are too few."""
     if table.plain.observed.frequencies.size < FEWEST:
         return False
-    rest, direction, _ = table.without(candidate)
-    alone = table.beside(rest, direction, ())
-    return bool(table.beside(rest, None, _roots(table.plain)).misfit < alone.misfit - TWENTY_TIMES)
+    rest, direction, _ = table.drop_cause(candidate)
+    alone = table.estimate_beside(rest, direction, ())
+    return bool(table.estimate_beside(rest, None, _roots(table.plain)).misfit < alone.misfit - TWENTY_TIMES)
 
 
 def find(table: Table) -> AtHighest | None:
@@ -66,11 +66,11 @@ def find(table: Table) -> AtHighest | None:
     if plain.observed.frequencies.size < FEWEST:
         return None
     both = _roots(plain)
-    gain = table.beside(linear, None, ()).misfit - table.beside(linear, None, both).misfit
+    gain = table.estimate_beside(linear, None, ()).misfit - table.estimate_beside(linear, None, both).misfit
     if gain < AT_HIGHEST:
         return None
     found = []
     for part, other, unit in zip(both, both[::-1], plain.noise.sigma, strict=True):
-        one = table.beside(linear, plain.noise.whiten(part), (other,))
+        one = table.estimate_beside(linear, plain.noise.whiten(part), (other,))
         found.append((float(unit * one.amplitude), float(unit * one.std_error)))
     return AtHighest(float(plain.observed.frequencies[-1]), *found)

@@ -87,7 +87,7 @@ class Ladder:
         return [rung.candidate for rung in self.rungs]
 
     @property
-    def of_one_place(self) -> list[dict[str, Any]]:
+    def confined_faults(self) -> list[dict[str, Any]]:
         """Faults of one place as `diagnosis.json` holds them."""
         highest = float(self.joint.observed.frequencies[-1])
         return [one.content(widening(self.estimates_spread), highest) for one in self.odd]

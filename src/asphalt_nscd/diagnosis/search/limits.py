@@ -12,7 +12,7 @@ from asphalt_nscd.diagnosis.model import chance
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.chance import Scores
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
-from asphalt_nscd.diagnosis.model.start import of_likeliest_roughness
+from asphalt_nscd.diagnosis.model.start import fit_roughness
 
 CLOSE = 0.05  # share of a direction left by the law, below which the law is refitted to see what it follows
 AT_LEAST = 0.5  # share of the strength that must survive the refit
@@ -34,7 +34,7 @@ def detection_limits(
         if found.seen[k]:
             size = threshold / np.sqrt(found.information[k]) * candidate.typical[0]
             # where the law follows nearly all of a direction, the linear score says little of what it leaves
-            size *= _by_refit(joint, fitted, candidate, size, threshold) if share[k] < CLOSE else 1.0
+            size *= _refit_ratio(joint, fitted, candidate, size, threshold) if share[k] < CLOSE else 1.0
             if size <= candidate.cause.largest(joint.observed):
                 sizes.setdefault(candidate.key, []).append(size)
                 continue
@@ -52,34 +52,34 @@ def _hidden_bias(joint: Joint, fitted: Fitted, candidate: Candidate, threshold: 
     size = HIDDEN * first.typical
     hidden = isinstance(candidate.place, float) and isinstance(joint.base, FlexibleSpectrum)
     while hidden and size <= first.high:
-        factor = _beyond(joint, fitted, candidate, size, threshold)
+        factor = _limit_ratio(joint, fitted, candidate, size, threshold)
         if np.isfinite(factor):
             return factor * size
         size *= 2.0
     return None
 
 
-def _by_refit(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
+def _refit_ratio(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
     """By how much the limit grows when the law may follow the effect as far as it can; infinite if it does."""
     # No law follows what one specimen does: its linear limit holds.
     if isinstance(candidate.place, str) or not isinstance(joint.base, FlexibleSpectrum):
         return 1.0
-    return max(_beyond(joint, fitted, candidate, size, threshold), 1.0)
+    return max(_limit_ratio(joint, fitted, candidate, size, threshold), 1.0)
 
 
-def _beyond(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
+def _limit_ratio(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
     """The limit over a size near it; infinite where the law follows an effect of this size.
 
     The fitted model with the effect stands for the table, without scatter; what the law without the effect leaves
     of it is the strength that is seen.
     """
-    present = (*fitted.active, candidate.with_values(np.array([size, *candidate.values[1:]])))
+    present = (*fitted.active, candidate.replace_values(np.array([size, *candidate.values[1:]])))
     modulus = joint.apparent(fitted.law, present, fitted.scales)[0]
     shown = Joint(replace(joint.observed, modulus=modulus), joint.base, joint.noise)
     # against the truth, not zero: the priors of law and scales cost something there too
     truth = shown.linearise(fitted.law, fitted.scales, present).objective
     follows = shown.fit(fitted.law, fitted.scales, fitted.active, CONVERGED)
-    left = of_likeliest_roughness(shown, follows, CONVERGED)[1].objective - truth
+    left = fit_roughness(shown, follows, CONVERGED)[1].objective - truth
     strength = float(np.sqrt(max(left, 0.0)))
     return threshold / strength if strength > AT_LEAST * threshold else np.inf
 

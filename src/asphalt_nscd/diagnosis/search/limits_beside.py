@@ -21,10 +21,10 @@ from asphalt_nscd.diagnosis.model.chance import Scores
 from asphalt_nscd.diagnosis.model.fit_beside import (
     State,
     answers,
-    of_shapes,
-    of_taken,
     settle,
+    shape_cost,
     smoothed,
+    taken_amplitude,
 )
 from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.model.probability import log_odds
@@ -44,7 +44,7 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
     """
     out: dict[tuple, tuple[float, float]] = {}
     for active in state.fitted.active:
-        own = of_taken(state, active, sizes_too=True)
+        own = taken_amplitude(state, active, sizes_too=True)
         out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
     best: dict[tuple, int] = {}
     for k, candidate in enumerate(surveyed.candidates):
@@ -53,7 +53,7 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
             best[candidate.key] = k
     for key, k in best.items():
         typical, direction = surveyed.candidates[k].typical[0], surveyed.pointing.column(k)
-        one = likelihood.with_uncertain_sizes(state.model, direction, surveyed.estimates[k])
+        one = likelihood.widen_error(state.model, direction, surveyed.estimates[k])
         out[key] = (one.amplitude * typical, one.std_error * typical)
     return out
 
@@ -72,7 +72,7 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
         model, pointing = likelihood.moved(state.model, direction, seen - one.amplitude)
         beside = likelihood.estimate(model, pointing, one.variances).misfit
         # A name asks for both: a gain over the discrepancy, and odds over none that hold what is usual of the cause.
-        present = candidate.with_values(np.array([amplitude * typical, *candidate.values[1:]]))
+        present = candidate.replace_values(np.array([amplitude * typical, *candidate.values[1:]]))
         # The first answer without the cause that does as well settles it; the slowest start comes last.
         gains = (without.misfit - beside for without in answers(model, state.variances))
         if all(
@@ -95,7 +95,7 @@ def _carried_from(state: State, candidate: Candidate, std_error: float, threshol
     amplitude = (threshold + Z_95) * std_error
     while amplitude * typical <= candidate.cause.largest(state.plain.observed):
         size = (amplitude - Z_95 * std_error) * typical
-        present = candidate.with_values(np.array([size, *candidate.values[1:]]))
+        present = candidate.replace_values(np.array([size, *candidate.values[1:]]))
         moved = state.wide.apparent(at.law, (*active, present), at.scales)[0] / stands
         observed = replace(state.plain.observed, modulus=state.plain.observed.modulus * moved)
         plain = Joint(observed, state.plain.base, state.plain.noise)
@@ -103,8 +103,8 @@ def _carried_from(state: State, candidate: Candidate, std_error: float, threshol
         before = smoothed(settle(plain, state.model.processes, at, active, state.variances))
         after = settle(plain, state.model.processes, at, (*active, present), state.variances)
         taken = after.fitted.active[-1]
-        gain = before.misfit - after.misfit - of_shapes(after.fitted, taken, observed)
-        own = of_taken(after, taken)
+        gain = before.misfit - after.misfit - shape_cost(after.fitted, taken, observed)
+        own = taken_amplitude(after, taken)
         odds = log_odds(taken, observed, gain, own.std_error * typical)
         if (
             gain > TWENTY_TIMES
@@ -163,6 +163,6 @@ def detection_limits(
         every = replace(found, seen=np.ones(errors.size, bool))
         alike = limits.alike(surveyed.candidates, every, TWENTY_TIMES)
     for active in state.fitted.active:
-        own = of_taken(state, active)
+        own = taken_amplitude(state, active)
         sizes[active.key] = (threshold + Z_95) * own.std_error * float(active.typical[0])
     return sizes, unseen, alike

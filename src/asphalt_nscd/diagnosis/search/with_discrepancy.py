@@ -33,12 +33,12 @@ from asphalt_nscd.diagnosis.model.fit_beside import (
     State,
     afresh,
     likeliest,
-    of_rows,
-    of_shapes,
-    of_taken,
+    refit_causes,
+    row_processes,
     settle,
+    shape_cost,
     smoothed,
-    with_causes,
+    taken_amplitude,
 )
 from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate
@@ -180,7 +180,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         amplitude = estimates[k].amplitude * candidates[k].typical[0]
         first = candidates[k].cause.parameters[0]
         values = np.array([np.clip(amplitude, first.low, first.high), *candidates[k].values[1:]])
-        active = (*state.fitted.active, candidates[k].with_values(values))
+        active = (*state.fitted.active, candidates[k].replace_values(values))
         after = settle(state.plain, state.model.processes, state.fitted, active, estimates[k].variances)
         if k in taken_up:
             after = min(after, afresh(state, active), key=lambda one: one.misfit)
@@ -188,9 +188,9 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
             # A law that had followed the cause needs no such roughness beside it.
             after = min(after, smoothed(after), key=lambda one: one.misfit)
         taken = after.fitted.active[-1]
-        gain = state.misfit - after.misfit - of_shapes(after.fitted, taken, state.plain.observed)
+        gain = state.misfit - after.misfit - shape_cost(after.fitted, taken, state.plain.observed)
         if gain > TWENTY_TIMES:
-            own = of_taken(after, taken)
+            own = taken_amplitude(after, taken)
             # The law refitted with a cause leaves it more than the law that had followed it.
             z[k] = max(z[k], abs(own.z))
             if not stands(state, after, taken, own):
@@ -203,7 +203,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     most = max(gain for gain, _, _ in refits)
     as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
     # Equals in gain are told apart by what is usual of them, and not by a trifle; one at its bound comes last.
-    _, k, after = max(as_good, key=lambda refit: (not refit[2].fitted.active[-1].at_bounds, odds[refit[1]]))
+    _, k, after = max(as_good, key=lambda refit: (not refit[2].fitted.active[-1].pinned, odds[refit[1]]))
     rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
     share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
     # A name and what fits as well are told together: they share their probability.
@@ -222,7 +222,7 @@ def _both_of_the_channel(
         return []
     both = smoothed(afresh(state, (*state.fitted.active, *pair)))
     taken = both.fitted.active[-2:]
-    own = [of_taken(both, one) for one in taken]
+    own = [taken_amplitude(both, one) for one in taken]
     errors = [one.std_error * float(candidate.typical[0]) for one, candidate in zip(own, taken, strict=True)]
     gain, observed = state.misfit - both.misfit, state.plain.observed
     odds = log_odds(taken[0], observed, gain, errors[0]) + log_odds(taken[1], observed, 0.0, errors[1])
@@ -247,7 +247,7 @@ def stands(before: State, state: State, taken: Candidate, own: Estimate) -> bool
     """
     if not taken.shaped:
         return bool(abs(own.z) >= CONFIDENCE)
-    return not (taken.at_bounds or hangs_on(state, taken, before))
+    return not (taken.pinned or hangs_on(state, taken, before))
 
 
 def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate], Direction]:
@@ -287,7 +287,7 @@ def hangs_on(state: State, candidate: Candidate, before: State | None = None) ->
     observed = state.plain.observed
     sign, carried = np.sign(candidate.values[0]), []
     if candidate.shaped and before is None:
-        before = with_causes(state, tuple(one for one in state.fitted.active if one.key != candidate.key))
+        before = refit_causes(state, tuple(one for one in state.fitted.active if one.key != candidate.key))
     # Akaike's price of a free parameter, for each shape.
     freedom = 2.0 * (len(candidate.values) - 1)
     for name, label, words in _parts(observed):
@@ -299,7 +299,7 @@ def hangs_on(state: State, candidate: Candidate, before: State | None = None) ->
             if before is not None and candidate.shaped:
                 lost = _misfit_of(before, rows) - _misfit_of(state, rows) - freedom < SURVIVES**2
             else:
-                lost = sign * of_taken(state, candidate, rows).z < SURVIVES
+                lost = sign * taken_amplitude(state, candidate, rows).z < SURVIVES
             if lost:
                 carried.append(words(value))
     return carried
@@ -309,7 +309,7 @@ def _misfit_of(state: State, rows: NDArray) -> float:
     """-2 ln of the likelihood of some rows, as `State.misfit`: one step of law and causes, the sizes estimated anew."""
     plain = Joint(state.plain.observed.subset(rows), state.plain.base, state.plain.noise.subset(rows))
     linear = plain.linearise(state.fitted.law, state.fitted.scales, state.fitted.active)
-    found, start = of_rows(state.model.processes, plain, rows, state.variances)
+    found, start = row_processes(state.model.processes, plain, rows, state.variances)
     law = linear.law.size + linear.scales.size
     return (
         linear.objective

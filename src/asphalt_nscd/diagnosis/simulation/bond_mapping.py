@@ -40,7 +40,7 @@ def simulated(campaign: str | Path, observed: Observations) -> Complex:
     return np.where(away.min(axis=1) <= 1.0, shown[nearest], complex(np.nan, np.nan))
 
 
-def over_law(campaign: str | Path) -> pd.Series:
+def ratio_to_law(campaign: str | Path) -> pd.Series:
     """|E*| over that of the law, by sample: mean over its tests without broken bonds in a folder of simulated tests."""
     tests = read_tests([campaign], ["broken_bonds"])
     # A broken bond softens a specimen whatever its mapping.
@@ -52,7 +52,7 @@ def bond_mapping(
     paper: str | Path, facets: str | Path, averages: dict[str, dict[str, dict[str, float]]]
 ) -> tuple[dict[str, Any] | None, str]:
     """The rung of the mapping of the law to the bonds (None where the paper's return the law), and a sentence."""
-    ratio, by_facets = over_law(paper), over_law(facets)
+    ratio, by_facets = ratio_to_law(paper), ratio_to_law(facets)
     if ratio.empty or by_facets.empty:
         return None, "bond_mapping is not judged: no simulated test is without broken bonds."
     before, after = _range(ratio), _range(by_facets)
@@ -83,7 +83,7 @@ def bond_mapping(
 
 def void(campaign: str | Path) -> str:
     """What to say of a campaign that stands alone, without another mapping beside it, in a sentence."""
-    ratio = over_law(campaign)
+    ratio = ratio_to_law(campaign)
     of_law = f"; |E*| of its samples is {_range(ratio)} of the law" if len(ratio) else ""
     return f"No rung bond_mapping: the campaign has one mapping of the law to the bonds{of_law}."
 

@@ -76,13 +76,13 @@ def material_law(
     along = np.concatenate([along.real, along.imag])
     size = along.shape[1]
     misfit = np.repeat(np.square(misfit_of_form(diagnosis, fit.law, rows)), along.shape[0] // 2)
-    return fit.under(along @ diagnosis.ladder.fitted.covariance[:size, :size] @ along.T + np.diag(misfit))
+    return fit.restate(along @ diagnosis.ladder.fitted.covariance[:size, :size] @ along.T + np.diag(misfit))
 
 
 def misfit_of_form(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_]) -> tuple[float, float]:
     """Root mean square of the law less the free curve, in ln|E*| and in the phase [rad]; `used` (n,) tests count."""
     observed = diagnosis.observed
-    free = _without_causes(diagnosis)[used]
+    free = _mix_modulus(diagnosis)[used]
     off = log_residual(free, law.complex_modulus(observed.omega[used], observed.temperature[used]))
     of_modulus, of_phase = (float(np.sqrt(np.mean(part**2))) for part in np.split(off, 2))
     return of_modulus, of_phase
@@ -144,10 +144,10 @@ def effect_taken_off(diagnosis: Diagnosis) -> Complex:
     ladder = diagnosis.ladder
     off = {rung.candidate.key for rung in ladder.rungs if diagnosis.taken_off(rung)}
     active = tuple(candidate for candidate in ladder.fitted.active if candidate.key in off)
-    return ladder.joint.apparent(ladder.fitted.law, active)[0] / _without_causes(diagnosis)
+    return ladder.joint.apparent(ladder.fitted.law, active)[0] / _mix_modulus(diagnosis)
 
 
-def _without_causes(diagnosis: Diagnosis) -> Complex:
+def _mix_modulus(diagnosis: Diagnosis) -> Complex:
     """E* (n,) [Pa] of the mix alone, by the last fit."""
     return diagnosis.ladder.joint.apparent(diagnosis.ladder.fitted.law, ())[0]
 

@@ -25,12 +25,12 @@ def simulated_by(joint: Joint, fitted: Fitted, specimen: NumericalSpecimen) -> C
     return fitted.modelled + np.log(specimen.apparent_modulus(observed.omega, law) / law)
 
 
-def with_burgers_laws(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Complex:
+def burgers_prediction(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> Complex:
     """ln E* (n,) as the numerical specimen shows a Burgers law fitted at each temperature."""
     return simulated_by(diagnosis.baseline_joint, diagnosis.baseline, specimen)
 
 
-def by_tests_alone(diagnosis: Diagnosis) -> Joint:
+def joint_alone(diagnosis: Diagnosis) -> Joint:
     """The joint model whose noise is the scatter of single tests, without what a laboratory adds."""
     return Joint(diagnosis.observed, diagnosis.ladder.joint.base, diagnosis.alone)
 
@@ -41,7 +41,7 @@ def nearest(diagnosis: Diagnosis, fitted: Fitted, specimen: NumericalSpecimen) -
     Beside what the laboratory adds and a discrepancy, a law that lacks a cause is far from the tests. `fitted` is the
     start.
     """
-    joint = by_tests_alone(diagnosis)
+    joint = joint_alone(diagnosis)
     return simulated_by(joint, joint.fit(fitted.law, fitted.scales, fitted.active, CLOSE), specimen)
 
 
@@ -91,7 +91,7 @@ def _misses(diagnosis: Diagnosis, logarithm: Complex, rows: NDArray[np.bool_]) -
     }
 
 
-def before_and_after(
+def compare_errors(
     diagnosis: Diagnosis, before: Complex, after: Complex, inner: bool = False
 ) -> dict[str, Any]:
     """Errors before and after (ln E* (n,)): of single tests, and of averages over specimens at each temperature.
@@ -129,7 +129,7 @@ def residual_table(
     observed, ladder = diagnosis.observed, diagnosis.ladder
     frame = _frame(diagnosis, observed.logarithm)
     if before is None:
-        before = with_burgers_laws(diagnosis, specimen)
+        before = burgers_prediction(diagnosis, specimen)
     for name, simulated in (("before", before), ("after", nearest(diagnosis, ladder.fitted, specimen))):
         left = observed.logarithm - simulated
         frame[f"E_{name}_MPa"] = np.exp(simulated.real) * 1e-6

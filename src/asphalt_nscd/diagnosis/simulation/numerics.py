@@ -16,7 +16,9 @@ NEAR_DEGREES = 1.0
 NEAR_FREQUENCY = 0.1  # relative
 
 
-def of_campaign(simulations: str | Path, temperatures: Vector, frequencies: Vector) -> dict[str, float | int]:
+def numerical_errors(
+    simulations: str | Path, temperatures: Vector, frequencies: Vector
+) -> dict[str, float | int]:
     """Largest departures of simulated tests from what is no numerics, of |E*| [%] and of the phase [degrees].
 
     time_stepping: from the law of the bonds times the specimen's own ratio, tests without broken bonds; broken_bonds:

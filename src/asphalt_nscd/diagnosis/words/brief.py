@@ -16,8 +16,8 @@ from asphalt_nscd.diagnosis.next_tests.fixed_orders import MANY, band
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words import sentences, unexplained, verdict
-from asphalt_nscd.diagnosis.words.sentences import Content, cause_words, doubtful, not_used, odd
-from asphalt_nscd.diagnosis.written import with_interval
+from asphalt_nscd.diagnosis.words.sentences import Content, cause_words, doubtful, odd, unused_tests
+from asphalt_nscd.diagnosis.written import interval_text
 from asphalt_nscd.files.words import counted, joined, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 from asphalt_nscd.measurements.kinds import UNKNOWN
@@ -45,7 +45,7 @@ NO_QUALITY_COLUMNS = "There are no quality columns: tests are judged by modulus 
 
 
 def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
-    """Label and sentences of each row in reading order, empty rows left out; `left` as in `verdict.on_simulation`."""
+    """Label and sentences of each row in reading order, empty rows left out; `left` as in `verdict.simulation_miss`."""
     simulated = left is not None or verdict.bonded(content)
     certain, possible = (_told(verdict.faults(content), content, wanted) for wanted in (True, False))
     effects, likely = (_told(verdict.effects(content), content, wanted) for wanted in (True, False))
@@ -53,11 +53,11 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
         ("Tests", _tests(content)),
         ("Note", _notes(content)),
         ("Data", _data(content)),
-        ("Fault", certain or _no_fault(content, bool(possible), bool(effects))),
-        ("Possible fault", [*possible, *_not_taken_off(content, bool(possible))]),
+        ("Fault", certain or _lack_of_certainty(content, bool(possible), bool(effects))),
+        ("Possible fault", [*possible, *_uncorrected_law(content, bool(possible))]),
         ("Effect", effects),
         ("Possible effect", likely),
-        ("Leave out", [*_few(_out(not_used(content))), *_if_kept(content)]),
+        ("Leave out", [*_few(_doubts_by_isotherm(unused_tests(content))), *_if_kept(content)]),
         ("Check first", [*_few(_check(content)), *_what_clears(content)]),
         ("Next tests", _next(content)),
         ("Not visible", unexplained.unseen(content)),
@@ -133,7 +133,7 @@ def _notes(content: Content) -> list[str]:
 
 def _data(content: Content) -> list[str]:
     """How many tests can be used, how many only after a check, how many not."""
-    tests, out = content["tests"], len(not_used(content))
+    tests, out = content["tests"], len(unused_tests(content))
     trust = content["trust"]
     everywhere = any(sure(rung) and rung["where"] is None for rung in verdict.faults(content))
     corrected = " after correction" * (everywhere and trust["use"] > 0)
@@ -153,7 +153,7 @@ def _data(content: Content) -> list[str]:
     return [" ".join([f"{', '.join(parts)}.", *phases])]
 
 
-def _no_fault(content: Content, possible: bool, effects: bool) -> list[str]:
+def _lack_of_certainty(content: Content, possible: bool, effects: bool) -> list[str]:
     """That none is certain, and how many temperatures certainty lacks; effects: whether any of the mix is certain."""
     confined = ("odd_phases", "odd_temperatures", "contradictory_isotherms")
     checks = any("probability" in one for key in confined for one in content[key])
@@ -177,7 +177,7 @@ def _fault(rung: Content, content: Content) -> str:
     taken_off = _taken_off(rung, content)
     if not sure(rung):
         same = [name for name in rung["as_good"] if name.startswith(f"{rung['cause']} @")]
-        others = joined(list(map(sentences.in_words, same)), "or")
+        others = joined(list(map(sentences.spell_cause, same)), "or")
         said += [f"If so, {meaning[:1].lower()}{meaning[1:]}"] * bool(meaning)
         said += [f"Not certain: {others} fits as well."] * bool(same)
         said += [f"Its probability is {sentences.probability(rung)}."] if "probability" in rung else []
@@ -194,7 +194,7 @@ def _taken_off(rung: Content, content: Content) -> bool:
     return "law_misses" in content and bool(rung["taken_off"])
 
 
-def _not_taken_off(content: Content, possible: bool) -> list[str]:
+def _uncorrected_law(content: Content, possible: bool) -> list[str]:
     """That law.json holds what is not certain, where no such cause was taken off."""
     taken_off = any(_taken_off(rung, content) for rung in verdict.faults(content) if not sure(rung))
     told = possible and "law_misses" in content and not taken_off
@@ -207,7 +207,7 @@ def _if_kept(content: Content) -> list[str]:
     return [f"{changed.rstrip('.')}, but they cannot be trusted."] if changed else []
 
 
-def _out(tests: list[Content]) -> list[str]:
+def _doubts_by_isotherm(tests: list[Content]) -> list[str]:
     """Why tests are doubtful, those of one isotherm with the same reasons in one sentence."""
     alike: dict[tuple, list[Content]] = {}
     for one in tests:
@@ -223,7 +223,7 @@ def _out(tests: list[Content]) -> list[str]:
 
 def _check(content: Content) -> list[str]:
     """What is doubtful, where, and what to check."""
-    read, tests = content.get("reading", {}), content["tests"] + len(not_used(content))
+    read, tests = content.get("reading", {}), content["tests"] + len(unused_tests(content))
     said = _contradictions(content["contradictory_isotherms"])
     said += [
         _sentence(
@@ -245,14 +245,14 @@ def _check(content: Content) -> list[str]:
             )
     warmer = content["odd_temperatures"]
     # What explains both comes before the two that it explains, of which a screen may not hold all.
-    said += [_sentence(one) for one in levels.of_exchanged(odd(content)[0], warmer)]
-    said += [_sentence(one) for one in levels.of_temperatures(warmer)]
+    said += [_sentence(one) for one in levels.swap_notes(odd(content)[0], warmer)]
+    said += [_sentence(one) for one in levels.temperature_notes(warmer)]
     said += [_sentence(one) for one in levels.sentences(*odd(content))]
-    said += _at_highest(content)
-    return said + _out(doubtful(content))
+    said += _highest_frequency_check(content)
+    return said + _doubts_by_isotherm(doubtful(content))
 
 
-def _at_highest(content: Content) -> list[str]:
+def _highest_frequency_check(content: Content) -> list[str]:
     """What all tests at the highest frequency are off by, and what to check."""
     one = content.get("highest_frequency")
     if one is None:
@@ -262,7 +262,7 @@ def _at_highest(content: Content) -> list[str]:
         low, high = one[f"{key.split('_')[0]}_interval_95"]
         side = "above" if one[key] > 0.0 else "below"
         if low > 0.0 or high < 0.0:
-            parts.append(f"{name} is {with_interval(abs(one[key]), 0.5 * (high - low))} {unit} {side}")
+            parts.append(f"{name} is {interval_text(abs(one[key]), 0.5 * (high - low))} {unit} {side}")
     off = f"{' and '.join(parts) or '|E*| and phase are off'} what the other frequencies ask for"
     return [
         f"In all tests at {one['frequency_Hz']:g} Hz {off}. Check that this frequency is the true one and that a cycle "
@@ -278,11 +278,11 @@ def _what_clears(content: Content) -> list[str]:
         return []
     return [
         f"Repeat {'any other' if broken else 'a'} doubtful test after the check. If both agree"
-        f"{_within_scatter(content)}, keep the old one, else use the new."
+        f"{_repeatability_limit(content)}, keep the old one, else use the new."
     ]
 
 
-def _within_scatter(content: Content) -> str:
+def _repeatability_limit(content: Content) -> str:
     """Between two tests of one specimen, 95 % of the differences: 2.8 standard deviations (ISO 5725-6)."""
     within = (content["repeatability"] or {}).get("within")
     if within is None:
@@ -294,7 +294,7 @@ def _within_scatter(content: Content) -> str:
 def _where_exceeded(above: list[Content], content: Content) -> str:
     """`all tests of specimens A and B and 3 of specimen C at 4 degC`; specimens were tested alike."""
     specimens = content.get("reading", {}).get("specimens", [])
-    tests = content["tests"] + len(not_used(content))
+    tests = content["tests"] + len(unused_tests(content))
     places: dict[str, list[Content]] = {}
     for one in above:
         places.setdefault(one["specimen"], []).append(one)
@@ -350,7 +350,7 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     law = "the law" if simulated or misses is None else "law.json"
     warning = [f"Do not use {law} {where}."] if where else []
     if simulated or misses is None:
-        return [" ".join([_sentence(verdict.on_simulation(content, left)), *warning])]
+        return [" ".join([_sentence(verdict.simulation_miss(content, left)), *warning])]
     modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
     title = next((one["title"] for one in content.get("laws", []) if one["taken"]), "2S2P1D")
     said = [
@@ -365,7 +365,7 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     if "highest_frequency" in content:
         out.append(f"the tests at {content['highest_frequency']['frequency_Hz']:g} Hz")
     doubtful = content["trust"].get("check", 0) and not out
-    but = " but those left out" * bool(not_used(content))
+    but = " but those left out" * bool(unused_tests(content))
     if corrected or out:
         without = f" without {joined(out)}" if out else ""
         among = ", doubtful ones too" * bool(doubtful)
@@ -380,7 +380,7 @@ def _unexplained(content: Content) -> list[str]:
     # An isotherm that contradicts itself is told under what to check first.
     broken = [one["temperature_C"] for one in content["contradictory_isotherms"]]
     of_others = [one for one in content["discrepancy"] if one["temperature_C"] not in broken]
-    told = sentences.more_than_scatter(content) and bool(of_others or not content["discrepancy"])
+    told = sentences.exceeds_scatter(content) and bool(of_others or not content["discrepancy"])
     parts = unexplained.left({**content, "discrepancy": of_others})[:PARTS] if told else []
     remarks = unexplained.remarks(content, PARTS) if parts and content["discrepancy"] else []
     off = "the common master curve is off by " if content["discrepancy"] else ""

@@ -17,7 +17,7 @@ from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
 from asphalt_nscd.diagnosis.next_tests.information import Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Sweep
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.words.sentences import an, capital
+from asphalt_nscd.diagnosis.words.sentences import article, capital
 from asphalt_nscd.files.words import joined
 
 REASONS = 3
@@ -48,7 +48,7 @@ class Open:
     hidden: float = 0.0
     short: str = ""
 
-    def at(self, order: Order) -> bool:
+    def covers(self, order: Order) -> bool:
         """Whether an order tests the departure that a question is about: its specimen, isotherm and frequency."""
         one, sweep = self.departure, order.sweep
         return (
@@ -87,7 +87,7 @@ class Context:
 def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[str]:
     """What the tests would do for the questions that they help most, in sentences."""
     helped = [(questions[k], *strengths) for k, strengths in order.helps.items()]
-    tested = [one for one, *_ in helped if one.at(order)]
+    tested = [one for one, *_ in helped if one.covers(order)]
     here = f"{order.sweep.temperature:g} degC"
     repeated = [one for one in tested if one.kind == "repeat"]
     again = sorted(one.about for one in repeated if not _copied(one))
@@ -116,7 +116,7 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
         if one.kind == "linear" and order.sweep.half_strain
     ]
     found += [_reason(*one) for one in helped if one[0].kind in ("kept", "metal", "apart")]
-    found += _within_reach([one for one in helped if one[0].kind == "reach"], context)
+    found += _reachable_causes([one for one in helped if one[0].kind == "reach"], context)
     return [reason for reason in found if reason][:REASONS]
 
 
@@ -137,7 +137,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
         ("reach", "to see whether there is {about}{places}"),
     ):
         for one in helped:
-            if one.kind != kind or (kind == "linear" and not (order.sweep.half_strain and one.at(order))):
+            if one.kind != kind or (kind == "linear" and not (order.sweep.half_strain and one.covers(order))):
                 continue
             at = [c.place for c in (one.candidate, one.rival) if c and c.cause.name == TemperatureBias.name]
             if kind == "apart" and len(at) == 2:
@@ -145,7 +145,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
             if kind == "reach" and at:
                 return f"to see an error of {one.other} in the temperature of any isotherm"
             alike = [other.place for other in helped if (other.kind, other.about) == (kind, one.about)]
-            other = an(one.other) if kind == "apart" else one.other
+            other = article(one.other) if kind == "apart" else one.other
             return words.format(about=one.short or one.about, other=other, places=_places(alike))
     return ""
 
@@ -159,7 +159,7 @@ def _frequencies(tested: Iterable[float | None]) -> str:
     return f"{joined([f'{f:g}' for f in sorted({f for f in tested if f is not None})])} Hz"
 
 
-def _within_reach(helped: Sequence[tuple[Open, float, float]], context: Context) -> list[str]:
+def _reachable_causes(helped: Sequence[tuple[Open, float, float]], context: Context) -> list[str]:
     """A sentence for each cause that the tests bring within reach, its isotherms or specimens together."""
     causes: dict[str, list[tuple[Place, float, float]]] = {}
     for one, *strengths in helped:
@@ -209,7 +209,7 @@ def _reason(one: Open, before: float, after: float) -> str:
     doubt = f"would look much the same. These tests speak for the {one.about}, but not beyond doubt."
     looks = f"fits these tests as well as the {one.about}." if one.alike else doubt
     clearer = "decide" if after >= CLEAR else "make it clearer"
-    return f"{capital(an(one.other))} {looks} This test should {clearer}."
+    return f"{capital(article(one.other))} {looks} This test should {clearer}."
 
 
 def act(one: Order, done: Observations) -> str:

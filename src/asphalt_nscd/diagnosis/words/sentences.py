@@ -44,7 +44,7 @@ def odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
     return content["odd_levels"], content["odd_phases"]
 
 
-def not_used(content: Content) -> list[Content]:
+def unused_tests(content: Content) -> list[Content]:
     """Suspect tests that the diagnosis left out, in their order."""
     return [one for one in content["suspect_tests"] if not one["used"]]
 
@@ -54,12 +54,12 @@ def doubtful(content: Content) -> list[Content]:
     return [one for one in content["suspect_tests"] if one["used"]]
 
 
-def with_suspects(content: Content) -> str:
+def suspect_change(content: Content) -> str:
     """What the suspect tests would have changed, had they been used; empty where no test is left out."""
     return _changed(content, "with_suspects", "If the tests left out were kept")
 
 
-def without_doubtful(content: Content) -> str:
+def doubtful_change(content: Content) -> str:
     """What is named without the doubtful tests that are used; empty where there are none."""
     when = "If the doubtful tests were left out"
     return _changed(content, "without_doubtful", when) if doubtful(content) else ""
@@ -77,7 +77,10 @@ def _changed(content: Content, key: str, when: str, alike: str = "name the same 
         return ""
     now = [cause_words(rung) for rung in content["ladder"] if rung["cause"] not in (BOND_MAPPING, LAW)]
     other = [cause_words(rung) for rung in then["causes"] if rung["cause"] != LAW]
-    more, less = [an(one) for one in other if one not in now], [an(one) for one in now if one not in other]
+    more, less = (
+        [article(one) for one in other if one not in now],
+        [article(one) for one in now if one not in other],
+    )
     changes = [f"{'also ' * (len(more) < len(other))}name {joined(more)}"] if more else []
     changes += [f"no longer name {joined(less)}"] if less else []
     would = joined(changes) or alike
@@ -94,7 +97,7 @@ def place_of_test(one: Content) -> str:
     return f"{specimen_named(one['specimen'])}, {one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"
 
 
-def of_intervals(content: Content) -> str:
+def interval_note(content: Content) -> str:
     """What +- on a size says, and more where the tests lie far from the fit; empty where nothing was named."""
     if not content["ladder"]:
         return ""
@@ -146,21 +149,21 @@ def causes(content: Content) -> list[tuple[str, str]]:
     return [
         (
             f"{cause_words(rung)}: {size(rung, content)}".removesuffix(": "),
-            f"{meaning(rung)}{_sure(rung, content)}{_not_in_answer(rung)}{_to_confirm(rung)}",
+            f"{meaning(rung)}{_sure(rung, content)}{_omission_reason(rung)}{_confirming_measurement(rung)}",
         )
         for rung in content["ladder"]
         if rung["cause"] != LAW
     ]
 
 
-def _not_in_answer(rung: Content) -> str:
+def _omission_reason(rung: Content) -> str:
     """Why the answer does not mention a cause."""
     if rung["established"] or not worsens(rung):
         return ""
     return " It is not in the answer above: if all tests count alike, they fit worse with it than without it."
 
 
-def _to_confirm(rung: Content) -> str:
+def _confirming_measurement(rung: Content) -> str:
     """Only where the simulations do not show it by themselves."""
     return "" if rung["cause"] == BOND_MAPPING else f" To confirm it: {rung['confirmed_by']}."
 
@@ -176,7 +179,7 @@ def meaning(rung: Content) -> str:
 def _sure(rung: Content, content: Content) -> str:
     if rung["cause"] == BOND_MAPPING:
         return f"Established: {rung['evidence']}."
-    chance = "below one in a million" if rung["p_value"] < 1e-6 else _per_cent(rung["p_value"])
+    chance = "below one in a million" if rung["p_value"] < 1e-6 else _percentage(rung["p_value"])
     likely = f", with a probability of {probability(rung)}" if "probability" in rung else ""
     doubts = _doubts(rung, content)
     if doubts:
@@ -195,8 +198,8 @@ def _doubts(rung: Content, content: Content) -> list[str]:
     """Why a name is not certain, a sentence each without its full stop."""
     doubts = []
     known = {written.name_at(one["cause"], one["where"]) for one in content["ladder"]}
-    also = joined([in_words(name) for name in rung["as_good"] if name in known])
-    others = joined([in_words(name) for name in rung["as_good"] if name not in known], "or")
+    also = joined([spell_cause(name) for name in rung["as_good"] if name in known])
+    others = joined([spell_cause(name) for name in rung["as_good"] if name not in known], "or")
     if others:
         doubts.append(f"{others} fits as well; these tests do not say which")
     if also:
@@ -235,7 +238,7 @@ def lacking(content: Content) -> str:
     return "; ".join(few) or f"certainty takes {ENOUGH}"
 
 
-def in_words(name: str) -> str:
+def spell_cause(name: str) -> str:
     """A cause and its place (isotherm [degC] or specimen) as `temperature_bias @ 21.0`, in words."""
     cause, _, place = name.partition(" @ ")
     where = float(place) if place and written.CONFINED_TO.get(cause) == "temperature_C" else place or None
@@ -253,7 +256,7 @@ def isotherms(content: Content) -> list[float]:
     return list(content.get("reading", {}).get("isotherms_C", []))
 
 
-def more_than_scatter(content: Content) -> bool:
+def exceeds_scatter(content: Content) -> bool:
     """Whether named causes leave structure, by lack of fit or largest pattern left, at half a step's chance each."""
     pattern = content["largest_pattern_left"]
     chances = [content["lack_of_fit_p_value"], 1.0 if pattern is None else pattern["p_value"]]
@@ -282,7 +285,7 @@ def estimate(one: Content, factor: float = 1.0) -> str:
         ends = " to ".join(three_digits(shown(end, one["unit"])[0]) for end in told)
         return f"{three_digits(value)} ({ends}) {typed(unit)}"
     half = shown(0.5 * (high - low), one["unit"])[0]
-    return f"{written.with_interval(value, half)} {typed(unit)}".rstrip()
+    return f"{written.interval_text(value, half)} {typed(unit)}".rstrip()
 
 
 def typed(unit: str) -> str:
@@ -303,10 +306,10 @@ def capital(words: str) -> str:
     return f"{words[:1].upper()}{words[1:]}"
 
 
-def an(words: str) -> str:
+def article(words: str) -> str:
     """The words (not empty) with their article, by the first letter, a vowel or not."""
     return f"{'an' if words[0] in 'aeiou' else 'a'} {words}"
 
 
-def _per_cent(chance: float) -> str:
+def _percentage(chance: float) -> str:
     return f"{three_digits(float(f'{100.0 * chance:.1g}'))} %"

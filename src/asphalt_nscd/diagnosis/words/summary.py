@@ -13,15 +13,15 @@ from asphalt_nscd.diagnosis.words.sentences import Content
 def answer(content: Content) -> str:
     """What to use, what to correct, what to leave out, what to test next; below it what +- means."""
     told = brief.text(content)
-    return f"{told}\n\n{sentences.of_intervals(content)}" if "+-" in told else told
+    return f"{told}\n\n{sentences.interval_note(content)}" if "+-" in told else told
 
 
 def summary(content: Content) -> str:
     """The answer and the reasons, one titled part after another; parts with nothing to say are left out."""
     read = content.get("reading", {"notes": []})
     law, named = sentences.law_of_the_mix(content), sentences.causes(content)
-    simulated, two_laws = verdict.on_simulation(content), verdict.two_laws(content)
-    none_named = list(filter(None, [unexplained.no_cause(content)]))
+    simulated, two_laws = verdict.simulation_miss(content), verdict.two_laws(content)
+    none_named = list(filter(None, [unexplained.absence_note(content)]))
     scatter, limits = table_rows.scatter_rows(content), table_rows.measured_limits(content)
     excess = table_rows.excess_rows(content)
     parts = [
@@ -34,7 +34,7 @@ def summary(content: Content) -> str:
                 sentences.capital(simulated),
                 *two_laws,
                 *([f"{law[0]}. {law[1]}".rstrip()] if law else []),
-                *verdict.beyond_the_tests(content),
+                *verdict.extrapolation_warning(content),
             ],
         ),
         ("Causes", [f"{cause}. {sure}" for cause, sure in named] + none_named),
@@ -51,14 +51,14 @@ def summary(content: Content) -> str:
 
 def _suspects(content: Content) -> list[str]:
     lines = []
-    for one in sentences.not_used(content):
+    for one in sentences.unused_tests(content):
         where = sentences.capital(sentences.place_of_test(one))
         lines += [f"{where}:", *(f"  {reason}" for reason in one["reasons"])]
-    return lines + list(filter(None, [sentences.with_suspects(content), sentences.without_doubtful(content)]))
+    return lines + list(filter(None, [sentences.suspect_change(content), sentences.doubtful_change(content)]))
 
 
 def _left(content: Content) -> list[str]:
-    dropped = [sentences.in_words(name) for name in content["withdrawn"]]
+    dropped = [sentences.spell_cause(name) for name in content["withdrawn"]]
     left = unexplained.left(content)
     left = [unexplained.OF_WHAT_IS_LEFT, *left] if content["discrepancy"] else left
     return left + ([f"Considered but not named, since too unsure: {', '.join(dropped)}."] if dropped else [])

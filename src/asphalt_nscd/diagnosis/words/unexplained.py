@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.screening import levels
-from asphalt_nscd.diagnosis.words.sentences import Content, isotherms, more_than_scatter, odd, typed
+from asphalt_nscd.diagnosis.words.sentences import Content, exceeds_scatter, isotherms, odd, typed
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import joined, specimen_named
 
@@ -17,7 +17,7 @@ MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curv
 LARGEST = 4  # parts of what stays unexplained that are listed
 
 
-def no_cause(content: Content) -> str:
+def absence_note(content: Content) -> str:
     """A sentence that nothing was named; empty where a cause was."""
     named = any(rung["cause"] != "relaxation_spectrum" for rung in content["ladder"])
     return "" if named else "No cause is named."
@@ -58,7 +58,7 @@ def left(content: Content) -> list[str]:
     if parts:
         return [*(_part_left(one, content) for one in parts), *remarks(content)]
     pattern = content["largest_pattern_left"]
-    if content["verdict"] == "unexplained_structure" and pattern is not None and more_than_scatter(content):
+    if content["verdict"] == "unexplained_structure" and pattern is not None and exceeds_scatter(content):
         if pattern["pattern"].count("slope over temperature") and len(isotherms(content)) == 1:
             return _largest(content)
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]

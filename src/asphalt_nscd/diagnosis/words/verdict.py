@@ -10,7 +10,15 @@ from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.words import sentences
-from asphalt_nscd.diagnosis.words.sentences import LAW, Content, an, cause_words, named, not_used, odd
+from asphalt_nscd.diagnosis.words.sentences import (
+    LAW,
+    Content,
+    article,
+    cause_words,
+    named,
+    odd,
+    unused_tests,
+)
 from asphalt_nscd.diagnosis.written import mean_averages, three_digits
 from asphalt_nscd.files.words import joined
 from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
@@ -60,7 +68,7 @@ def correction(rung: Content) -> str:
     return "" if cause is None else cause.correction(value, rung["where"])
 
 
-def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> str:
+def simulation_miss(content: Content, left: Mapping[str, float] | None = None) -> str:
     """One sentence: what the simulation misses with the paper's laws, and with what was found.
 
     Mean errors over the temperatures, or why nothing is judged. `left`: errors [%] of "E" and "phase" that tests
@@ -87,7 +95,7 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     if facets or left is not None:
         return (
             f"{simpler} misses {missed_by} by {before[0]} of |E*| and {before[1]} of the phase; with {found} the "
-            f"simulation misses by {after[0]} and {after[1]}, {_beyond_bonds(content)}.{worse}"
+            f"simulation misses by {after[0]} and {after[1]}, {_misfit_beyond_bonds(content)}.{worse}"
         )
     law = COMMON if named(content, LAW) else simpler
     found = joined([_noun(rung) for rung in ladder if rung["cause"] != LAW])
@@ -95,7 +103,7 @@ def on_simulation(content: Content, left: Mapping[str, float] | None = None) -> 
     without = f" Without {these} it misses by {before[0]} and {before[1]}."
     return (
         f"{law}{f', fitted together with {found},' * bool(found)} misses {missed_by} by {after[0]} in |E*| and "
-        f"{after[1]} in the phase, {_beyond_bonds(content)}.{without * (law == simpler)}{worse}"
+        f"{after[1]} in the phase, {_misfit_beyond_bonds(content)}.{without * (law == simpler)}{worse}"
     )
 
 
@@ -110,7 +118,7 @@ def two_laws(content: Content) -> list[str]:
     doubtful = f" {joined(kept).capitalize()} {not_certain}" * bool(kept)
     out = levels.places(*odd(content))
     fewer = f", those of law.json without {joined(out)}" if out else ""
-    neither = " Tests left out are in neither." * bool(not_used(content))
+    neither = " Tests left out are in neither." * bool(unused_tests(content))
     return [
         f"law.json misses {held_against(content)} by {misses['mre_E_percent']:.2g} % in |E*| and "
         f"{misses['mre_phase_percent']:.2g} % in the phase.{doubtful}",
@@ -128,7 +136,7 @@ def held_against(content: Content) -> str:
 def _noun(rung: Content) -> str:
     """A named cause as a thing that tests show."""
     words = cause_words(rung)
-    return an(words.replace("specimen geometry", "error of the dimensions") if rung["where"] else words)
+    return article(words.replace("specimen geometry", "error of the dimensions") if rung["where"] else words)
 
 
 def bonded(content: Content) -> bool:
@@ -177,11 +185,11 @@ def _cannot_judge(content: Content) -> str:
     )
 
 
-def _beyond_bonds(content: Content) -> str:
+def _misfit_beyond_bonds(content: Content) -> str:
     """Whether more than scatter is left, once what the simulated bonds add to their law is taken off."""
     if not content["tested"] and sentences.alone(content):
         return "and nobody knows how much of that is scatter"
-    fits = content["verdict"] == "explained" or not sentences.more_than_scatter(content)
+    fits = content["verdict"] == "explained" or not sentences.exceeds_scatter(content)
     causes = [rung for rung in content["ladder"] if rung["cause"] not in (LAW, BOND_MAPPING)]
     sure = all(rung["established"] for rung in causes)
     within = " within specimens" if content["scatter"]["from_replicates"] else ""
@@ -214,7 +222,7 @@ def predicted_badly(content: Content) -> str:
     return "beyond the tested temperatures" if max(errors[min(errors)], errors[max(errors)]) > POOR else ""
 
 
-def beyond_the_tests(content: Content) -> list[str]:
+def extrapolation_warning(content: Content) -> list[str]:
     """A sentence on errors at temperatures left out of the fit, where they forbid to use the law there; else empty."""
     found = _left_out(content)
     if found is None or not predicted_badly(content):

@@ -39,7 +39,7 @@ def text(card: Card) -> str:
         f"*MATERIAL, NAME={name}",
         # Said, because the default is the long-term modulus, and the weights are shares of the instantaneous one.
         "*ELASTIC, MODULI=INSTANTANEOUS",
-        f"{number(card.settings.units.of(series.instantaneous))}, {number(card.poisson)}",
+        f"{number(card.settings.units.express(series.instantaneous))}, {number(card.poisson)}",
         "*VISCOELASTIC, TIME=PRONY",
         *(
             # Shear and bulk relax alike, so that Poisson's ratio stays what was stated.

@@ -39,7 +39,7 @@ def text(card: Card) -> str:
         "! Read within /PREP7 by /INPUT. In a command snippet of Mechanical write matid for the number:",
         # One place to change, where the model has a material 1 already.
         f"{MATERIAL} = 1",
-        f"MP,EX,{MATERIAL},{number(card.settings.units.of(series.instantaneous))}",
+        f"MP,EX,{MATERIAL},{number(card.settings.units.express(series.instantaneous))}",
         f"MP,PRXY,{MATERIAL},{number(card.poisson)}",
     ]
     # Bulk too: left elastic, it would let Poisson's ratio change with time.

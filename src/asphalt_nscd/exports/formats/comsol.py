@@ -29,7 +29,7 @@ def text(card: Card) -> str:
         *card.comment("%"),
         "%",
         "% Parameters to enter (Solid Mechanics > Linear Elastic Material, the long-term branch):",
-        f"% E_long {number(units.of(series.long_term))}{stress}",
+        f"% E_long {number(units.express(series.long_term))}{stress}",
         f"% nu {number(nu)}",
         "% Viscoelasticity > Generalized Maxwell, viscoelastic strains: volumetric and deviatoric.",
         f"% Bulk modulus of each branch: Km = {number(bulk / shear)}*Gm, same relaxation time.",
@@ -45,7 +45,7 @@ def text(card: Card) -> str:
         ]
     lines.append(f"% Columns: branch, shear modulus Gm {stress}, relaxation time taum [s]")
     lines += [
-        f"{branch} {number(units.of(shear * modulus))} {number(time)}"
+        f"{branch} {number(units.express(shear * modulus))} {number(time)}"
         for branch, (modulus, time) in enumerate(zip(series.moduli, series.times, strict=True), start=1)
     ]
     return "\n".join(lines) + "\n"

@@ -24,11 +24,11 @@ def frame(card: Card) -> pd.DataFrame:
     """
     series, units = card.series, card.settings.units
     moduli, half = [series.long_term, *series.moduli], card.half_widths
-    known = {} if half is None else {f"half_95_{units.stress}": [units.of(one) for one in half]}
+    known = {} if half is None else {f"half_95_{units.stress}": [units.express(one) for one in half]}
     return pd.DataFrame(
         {
             "branch": range(len(moduli)),
-            f"modulus_{units.stress}": [units.of(modulus) for modulus in moduli],
+            f"modulus_{units.stress}": [units.express(modulus) for modulus in moduli],
             **known,
             # The long-term branch is a spring, which never relaxes.
             "relaxation_time_s": [float("inf"), *series.times],

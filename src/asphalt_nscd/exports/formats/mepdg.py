@@ -79,7 +79,7 @@ def make_table(law: ExportedLaw) -> Table:
     factor[defined] = law.factor(celsius[defined])
     reduced = 2.0 * np.pi * frequency * factor[:, None]
     modulus = np.full(reduced.shape, np.nan)
-    modulus[defined] = np.abs(law.at_reference(reduced[defined])) / PSI
+    modulus[defined] = np.abs(law.reference_modulus(reduced[defined])) / PSI
     spread = None
     if law.uncertainty is not None:
         spread = np.full(reduced.shape, np.nan)

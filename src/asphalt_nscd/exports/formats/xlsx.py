@@ -146,7 +146,7 @@ def _shift_factors(card: Card) -> pd.DataFrame:
 def _master_curve(card: Card) -> pd.DataFrame:
     low, high = card.law.reduced_band()
     omega = np.geomspace(low, high, max(3, round(IN_A_DECADE * np.log10(high / low)) + 1))
-    law, series = card.law.at_reference(omega), card.series.complex_modulus(omega)
+    law, series = card.law.reference_modulus(omega), card.series.complex_modulus(omega)
     half = card.law.half_widths(omega)
     modulus, phase = np.abs(law) / 1e6, np.degrees(np.angle(law))
     band = {}
@@ -192,7 +192,7 @@ def _measured(card: Card, tests: pd.DataFrame) -> pd.DataFrame:
     """Each test beside the law of this file."""
     factor = card.law.factor(tests["temperature_C"].to_numpy(float))
     reduced = tests["frequency_Hz"].to_numpy(float) * factor
-    law = card.law.at_reference(2.0 * np.pi * reduced)
+    law = card.law.reference_modulus(2.0 * np.pi * reduced)
     modulus, phase = np.abs(law) / 1e6, np.degrees(np.angle(law))
     own = tests[["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]]
     return own.rename(columns=HEADINGS).assign(

@@ -33,7 +33,7 @@ class PackedBonds:
         nobody = -(-self.size // 6)
         # what stands still is a body of no mobility, whose row stays zero: sweeps need no branch for it
         bodies[bodies < 0] = nobody
-        self._mobility = self._by_body(mobility, nobody)
+        self._mobility = self._rows_by_body(mobility, nobody)
         self._mobility[:, 6:] = self._mobility[:, [0, 3]]
         even = (
             (self._mobility[:, :6] == self._mobility[:, [6, 6, 6, 7, 7, 7]]).all(axis=1)[bodies].all(axis=1)
@@ -71,7 +71,7 @@ class PackedBonds:
         `explicit` (3 b,) is b of the law [m/s], `reaction` (3 b,) the start R [N], `velocity` (d,) that before R acts.
         Returns reaction (3 b,) [N], velocity (d,) [m/s, rad/s], number of sweeps, relative change of the last one.
         """
-        motion = self._by_body(velocity, len(self._mobility) - 1)
+        motion = self._rows_by_body(velocity, len(self._mobility) - 1)
         # a row has room for eight numbers: the mobility comes with the motion, a fifth less time
         motion[:, 6:] = self._mobility[:, 6:]
         _lay_out(self._blocks, self._frame, self._law, explicit, reaction, self._packed)
@@ -82,7 +82,7 @@ class PackedBonds:
         reaction = _reactions(self._blocks, self._frame, self._packed)
         return reaction, motion[:, :6].ravel()[: self.size], sweeps, change
 
-    def _by_body(self, values: np.ndarray, nobody: int) -> np.ndarray:
+    def _rows_by_body(self, values: np.ndarray, nobody: int) -> np.ndarray:
         """Values (d,) in a row of eight for each body, and a row of zeros for what stands still."""
         rows = aligned((nobody + 1, WIDTH))
         six = np.zeros(6 * (nobody + 1))

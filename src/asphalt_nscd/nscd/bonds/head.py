@@ -29,7 +29,7 @@ class HeadDevices:
     head_mass: float = 0.0
 
     @property
-    def of_head(self) -> tuple[float, float, float, float]:
+    def head_constants(self) -> tuple[float, float, float, float]:
         """The devices (C, k, F_s, m) for the compiled functions."""
         return (
             float(self.clamp_compliance),

@@ -92,12 +92,12 @@ class BondLaws:
     @cached_property
     def kelvin_springs(self) -> np.ndarray:
         """(k, 3 b) Pa."""
-        return self._of_elements([law.kelvin_springs for law in self.table])
+        return self._element_values([law.kelvin_springs for law in self.table])
 
     @cached_property
     def kelvin_dashpots(self) -> np.ndarray:
         """(k, 3 b) Pa s."""
-        return self._of_elements([law.kelvin_dashpots for law in self.table])
+        return self._element_values([law.kelvin_dashpots for law in self.table])
 
     def step(self, dt: float) -> LawStep:
         """Coefficients of U+ = b - S sigma+ of a step `dt` [s], as arrays (3 b,) where bonds differ."""
@@ -106,16 +106,16 @@ class BondLaws:
             dt=dt,
             compliance=np.array([step.compliance for step in steps])[self.kind],
             spring_memory=np.array([step.spring_memory for step in steps])[self.kind],
-            kelvin_recall=self._of_elements([step.kelvin_recall for step in steps]),
-            kelvin_decay=self._of_elements([step.kelvin_decay for step in steps]),
-            kelvin_gain=self._of_elements([step.kelvin_gain for step in steps]),
+            kelvin_recall=self._element_values([step.kelvin_recall for step in steps]),
+            kelvin_decay=self._element_values([step.kelvin_decay for step in steps]),
+            kelvin_gain=self._element_values([step.kelvin_gain for step in steps]),
         )
 
     def discrete_modulus(self, omega: float, dt: float) -> np.ndarray:
         """Complex modulus (3 b,) [Pa] of each component at `omega` [rad/s], as of a `BondLaw`."""
         return np.array([law.discrete_modulus(omega, dt) for law in self.table])[self.kind]
 
-    def _of_elements(self, values: Sequence[np.ndarray]) -> np.ndarray:
+    def _element_values(self, values: Sequence[np.ndarray]) -> np.ndarray:
         """(k, 3 b) from one number for each Kelvin element of each law."""
         most = max(len(of_law) for of_law in values)
         # an element of zeros neither recalls nor grows: laws of any length go through one product
@@ -146,7 +146,7 @@ class LawStep:
         `sigma` (...,) in Pa and the displacements `kelvin` (k, ...) of the Kelvin elements in m, both at the start.
         """
         return np.asarray(
-            self.spring_memory * sigma - (_beside(self.kelvin_recall, kelvin) * kelvin).sum(axis=0)
+            self.spring_memory * sigma - (_expand(self.kelvin_recall, kelvin) * kelvin).sum(axis=0)
         )
 
     def update(self, explicit: np.ndarray, velocity: np.ndarray, kelvin: np.ndarray) -> tuple:
@@ -164,10 +164,10 @@ class LawStep:
         `sigma` (...,) is the stress at the end [Pa]; a positive one shortens, as sigma = -Em dm has it.
         """
         return np.asarray(
-            _beside(self.kelvin_decay, kelvin) * kelvin - _beside(self.kelvin_gain, kelvin) * sigma
+            _expand(self.kelvin_decay, kelvin) * kelvin - _expand(self.kelvin_gain, kelvin) * sigma
         )
 
 
-def _beside(factor: np.ndarray, kelvin: np.ndarray) -> np.ndarray:
+def _expand(factor: np.ndarray, kelvin: np.ndarray) -> np.ndarray:
     """Factors (k,) or (k, 3 b) in a shape that multiplies kelvin (k, ...)."""
     return factor.reshape(factor.shape + (1,) * (kelvin.ndim - factor.ndim))

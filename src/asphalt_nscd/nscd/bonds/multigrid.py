@@ -32,7 +32,7 @@ class Multigrid:
         Bodies come one after another; the last may lack some of its six.
         """
         self._size = matrix.shape[0]
-        self._matrix = _in_blocks(matrix)
+        self._matrix = _body_blocks(matrix)
         bodies = self._matrix.shape[0] // PER_BODY
         row = np.repeat(np.arange(bodies), np.diff(self._matrix.indptr))
         own = self._matrix.data[row == self._matrix.indices]
@@ -68,7 +68,7 @@ class Multigrid:
         return _times(self._inverse.transpose(0, 2, 1), motion[:, None])[: self._size, 0]
 
 
-def _in_blocks(matrix: sparse.csc_matrix) -> sparse.bsr_matrix:
+def _body_blocks(matrix: sparse.csc_matrix) -> sparse.bsr_matrix:
     """A block for each pair of bodies; what the last lacks of its six stands alone on the diagonal."""
     size, entries = matrix.shape[0], matrix.nnz
     missing = np.arange(-size % PER_BODY)

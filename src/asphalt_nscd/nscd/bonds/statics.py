@@ -73,7 +73,7 @@ class Statics:
         def force(motion: np.ndarray) -> np.ndarray:
             return np.asarray(self._transpose @ (weight * (system.operator @ motion)))
 
-        def of_free(part: np.ndarray) -> np.ndarray:
+        def force_on_free(part: np.ndarray) -> np.ndarray:
             whole = np.zeros_like(self._motion)
             whole[free] = part
             return force(whole)[free]
@@ -83,7 +83,7 @@ class Statics:
         taken: list[None] = []
         matrix, near = ((free.size, free.size) for _ in range(2))
         self._motion[free], failed = cg(
-            LinearOperator(matrix, of_free, dtype=float),
+            LinearOperator(matrix, force_on_free, dtype=float),
             -force(head)[free],
             x0=self._motion[free],
             rtol=self._tolerance,

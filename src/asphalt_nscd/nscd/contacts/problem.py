@@ -62,7 +62,7 @@ class ContactProblem:
         # a copy: broadcast arrays are read-only, which the compiled kernels would take for another type
         friction = np.broadcast_to(np.asarray(mu, float), contacts).copy()
         matrix = sparse.csr_array(W, dtype=float)
-        blocks, row, own = _with_own_blocks(matrix)
+        blocks, row, own = _contact_blocks(matrix)
         if not (np.isfinite(blocks.data).all() and np.isfinite(q).all() and np.isfinite(friction).all()):
             raise ValueError("W, q and mu must be finite")
         if (friction < 0.0).any():
@@ -132,7 +132,7 @@ class ContactProblem:
             return None
 
 
-def _with_own_blocks(matrix: sparse.csr_array) -> tuple[sparse.bsr_array, np.ndarray, np.ndarray]:
+def _contact_blocks(matrix: sparse.csr_array) -> tuple[sparse.bsr_array, np.ndarray, np.ndarray]:
     """As 3 x 3 blocks in order, W_aa among them even where it is zero; their rows; where the W_aa stand."""
     blocks = sparse.bsr_array(matrix, blocksize=(3, 3))
     contacts = blocks.shape[0] // 3

@@ -105,7 +105,7 @@ def give_back(start, count, workspace):
                     contacts[contact // WIDTH, k, contact % WIDTH] = copies[block, k, lane]
 
 
-def in_blocks(
+def deal_blocks(
     team: Team, begin: np.ndarray, pair: np.ndarray, bodies: np.ndarray, workspace: Workspace
 ) -> tuple[Slabs, Workspace]:
     """Pairs in the order of slabs, dealt into blocks by a team, with a workspace that fits them.

@@ -20,9 +20,9 @@ from asphalt_nscd.nscd.compiled import compiled_for_teams
 from asphalt_nscd.nscd.contacts.coulomb import cut
 from asphalt_nscd.nscd.lanes import (
     WIDTH,
-    above,
     broadcast,
     gather,
+    greater_bits,
     largest,
     load,
     scatter,
@@ -119,7 +119,7 @@ def sweep_blocks(
         store(contacts, block, 4, y)
         store(contacts, block, 5, z)
         moved = dx * dx + dy * dy + dz * dz
-        lively = above(moved, broadcast(quiet)) | above(violation, broadcast(calm))
+        lively = greater_bits(moved, broadcast(quiet)) | greater_bits(violation, broadcast(calm))
         if lively:
             for lane in range(WIDTH):
                 # a spare row of this slab takes what is not noted: two threads would write a common one

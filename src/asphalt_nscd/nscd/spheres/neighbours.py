@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
-from asphalt_nscd.nscd.lanes import WIDTH, above, broadcast, load
+from asphalt_nscd.nscd.lanes import WIDTH, broadcast, greater_bits, load
 from asphalt_nscd.nscd.team import Team, mark_started, partition
 
 CELL = 2.0  # width of cells, in smallest diameters and reaches: eight spheres are looked at together
@@ -311,9 +311,9 @@ def _candidates(i, position, radius, reach, furthest, cell, low, shape, first, m
                 )
                 other = load(spheres, block, 3)
                 limit = own + other + near + load(spheres, block, 4)
-                inside = above(limit * limit, dx * dx + dy * dy + dz * dz)
-                later = above(load(spheres, block, 5), number) & ~above(other, own)
-                partners = inside & (above(own, other) | later)
+                inside = greater_bits(limit * limit, dx * dx + dy * dy + dz * dz)
+                later = greater_bits(load(spheres, block, 5), number) & ~greater_bits(other, own)
+                partners = inside & (greater_bits(own, other) | later)
                 if partners:
                     for lane in range(WIDTH):  # what is written stays if it counts: no branch hard to foresee
                         if offset + found < out.shape[0]:

@@ -51,7 +51,7 @@ class BondBounds:
 
     def utilisation(self, sigma: np.ndarray) -> np.ndarray:
         """Upper bound (n,) of the yield measure of listed bonds while |s| <= sigma (k,)."""
-        return _of_each(self.utilised, sigma)
+        return _row_sums(self.utilised, sigma)
 
     def candidates(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Numbers of the bonds that could yield, and of those whose gaps could close, within envelopes.
@@ -62,11 +62,11 @@ class BondBounds:
         if rest is not None and not self._all_below_one(rest, sigma, motion):
             raise BeyondExcerpt
         may_yield = self.number[self.utilisation(sigma) > 1.0]
-        return may_yield, self.number[_of_each(self.closed, motion) > 1.0]
+        return may_yield, self.number[_row_sums(self.closed, motion) > 1.0]
 
     def any_candidate(self, sigma: np.ndarray, motion: np.ndarray) -> bool:
         """Whether any bond could yield or any gap close within envelopes (k,); BeyondExcerpt if an unlisted could."""
-        if (self.utilisation(sigma) > 1.0).any() or (_of_each(self.closed, motion) > 1.0).any():
+        if (self.utilisation(sigma) > 1.0).any() or (_row_sums(self.closed, motion) > 1.0).any():
             return True
         if self.rest is not None and not self._all_below_one(self.rest, sigma, motion):
             raise BeyondExcerpt
@@ -87,14 +87,14 @@ class BondBounds:
 
     def smallest_gap(self, motion: np.ndarray) -> float:
         """Lower bound [m] of all gaps while |q| <= motion (k,); BeyondExcerpt where an unlisted one may have it."""
-        smallest = float((self.gap * (1.0 - _of_each(self.closed, motion))).min())
+        smallest = float((self.gap * (1.0 - _row_sums(self.closed, motion))).min())
         if self.rest is not None and self.rest.gap - float(self.rest.travel @ motion) < smallest + (
             MARGIN * self.rest.gap
         ):
             raise BeyondExcerpt
         return smallest
 
-    def beyond_head(self, bonds: np.ndarray, sigma: np.ndarray) -> np.ndarray:
+    def head_bounds(self, bonds: np.ndarray, sigma: np.ndarray) -> np.ndarray:
         """For listed bonds (m,), (m, 2): while |s| <= sigma (k,), the yield measure is below [:, 0] |s_0| + [:, 1]."""
         part = self.utilised[self.places(bonds)]
         return np.column_stack([part[:, 0], part[:, 1:] @ sigma[1:]])
@@ -129,7 +129,7 @@ class BondBounds:
         return max(float(rest.utilised @ sigma), float(rest.closed @ motion)) * (1.0 + MARGIN) <= 1.0
 
 
-def _of_each(contributions: np.ndarray, envelope: np.ndarray) -> np.ndarray:
+def _row_sums(contributions: np.ndarray, envelope: np.ndarray) -> np.ndarray:
     """Sums (n,); a matrix product would round a row by its place among the others."""
     return (contributions * envelope).sum(axis=1)
 

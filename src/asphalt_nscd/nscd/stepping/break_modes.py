@@ -41,10 +41,10 @@ class StandBy:
     def of(cls, system: BondedSystem, basis: np.ndarray, shifted: SuperLU, most: int = BONDS) -> StandBy:
         """Directions for `most` bonds that the driven motion alone, either way, breaks one by one."""
         search = _Search(system, basis, shifted, {})
-        return cls._of(search, search.following([], most))
+        return cls._make(search, search.following([], most))
 
     @classmethod
-    def _of(cls, search: _Search, bonds: Sequence[int]) -> StandBy:
+    def _make(cls, search: _Search, bonds: Sequence[int]) -> StandBy:
         system = search.system
         blocks = [search.directions(bond).astype(np.float32) for bond in bonds]
         directions = np.hstack([np.empty((system.mass.size, 0), np.float32), *blocks])
@@ -52,14 +52,14 @@ class StandBy:
         projection = Projection.of(system, np.hstack([search.basis, directions]), [], bonds)
         return cls(np.array(bonds, int), owner, directions, projection)
 
-    def with_those_of(
+    def add_directions(
         self, bonds: Sequence[int], system: BondedSystem, basis: np.ndarray, shifted: SuperLU, ahead: int
     ) -> StandBy:
         """With directions of more bonds (m,), and of the next `ahead` that break once these have."""
         known = {int(bond): self.directions[:, self.owner == place] for place, bond in enumerate(self.bonds)}
         search = _Search(system, basis, shifted, known)
         # each once, as asked: a restart that asks for this list gets the same columns to the bit
-        return self._of(search, list(dict.fromkeys([*known, *bonds, *search.following(bonds, ahead)])))
+        return self._make(search, list(dict.fromkeys([*known, *bonds, *search.following(bonds, ahead)])))
 
     def arrays(self) -> dict[str, np.ndarray]:
         """By name, for a file."""

@@ -40,7 +40,7 @@ class CondensedState:
     broken: list[int] = field(default_factory=list)
 
     @classmethod
-    def at_rest(cls, system: BondedSystem, law: AnyLaw) -> CondensedState:
+    def rest_state(cls, system: BondedSystem, law: AnyLaw) -> CondensedState:
         """State of no motion and no stress, with the Kelvin elements of the law."""
         d, rows = system.mass.size, system.weight.size
         kelvin = np.zeros((len(law.kelvin_springs), rows))
@@ -115,7 +115,7 @@ class CondensedStepper:
         self.utilisation = float(utilisation[worst])
         head = system.driven
         force = actuator_force(
-            self.devices.of_head,
+            self.devices.head_constants,
             dt,
             self.missing[head],
             friction,
@@ -182,7 +182,7 @@ class CondensedStepper:
         def follow(contact_force: np.ndarray) -> tuple[float, float]:
             free_force = -float(following @ (impulse / dt + contact_force))
             return follow_actuator(
-                self.devices.of_head,
+                self.devices.head_constants,
                 dt,
                 free_force,
                 impedance,

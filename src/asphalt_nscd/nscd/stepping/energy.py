@@ -107,7 +107,7 @@ class EnergyAccount:
         self, stepper: Any, of: Forms, x: History, y: History, factor: float = 0.5
     ) -> dict[str, float]:
         """factor times the bilinear form of each store at x and y; the linear one of the load at y."""
-        clamp, spring, _, mass = stepper.devices.of_head
+        clamp, spring, _, mass = stepper.devices.head_constants
         one, other = x.values, y.values
         stresses = [(values["sigma"], values["kelvin"]) for values in (one, other)]
         places = [(h.values["displacement"][of.head], h.values["velocity"][of.head]) for h in (x, y)]

@@ -83,5 +83,5 @@ def actuator_stiffness(head: complex, devices: HeadDevices, omega: float) -> com
 
     The slider is left out: its force does not grow with the motion.
     """
-    clamp, spring, _, mass = devices.of_head
+    clamp, spring, _, mass = devices.head_constants
     return 1.0 / (clamp + 1.0 / (head + spring - mass * omega**2))

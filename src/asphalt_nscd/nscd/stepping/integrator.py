@@ -25,7 +25,7 @@ class March:
         Where the reduced stepper cannot make it, FullSystemNeeded is raised and it is left in the state before.
         """
         stepper = self.stepper
-        base = self.now.beyond(self.earlier, self.scheme.b / self.scheme.a)
+        base = self.now.extrapolate(self.earlier, self.scheme.b / self.scheme.a)
         base.put(stepper.state)
         try:
             force = stepper.move(base.actuator, actuator)

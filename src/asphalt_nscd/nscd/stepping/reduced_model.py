@@ -193,7 +193,7 @@ class ReducedModel:
         free = self.system.free
         return float(np.linalg.norm(force[free] / np.sqrt(self.system.stiffness_diagonal[free])))
 
-    def with_basis(self, basis: np.ndarray, broken: Sequence[int]) -> ReducedModel:
+    def project_anew(self, basis: np.ndarray, broken: Sequence[int]) -> ReducedModel:
         """The same system projected anew on another `basis` (d, k), with bonds `broken` removed."""
         return ReducedModel(self.system, basis, broken)
 

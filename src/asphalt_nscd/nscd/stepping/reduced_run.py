@@ -14,7 +14,7 @@ class ReducedRun(NamedTuple):
     """Model, state and results of some steps: n steps, k coordinates, e Kelvin elements, c bonds."""
 
     driven: np.ndarray  # (n,) m, of the actuator
-    devices: tuple[float, float, float, float]  # `HeadDevices.of_head`
+    devices: tuple[float, float, float, float]  # `HeadDevices.head_constants`
     impedance: float  # Z: the head takes the force Z v+ - a v - b explicit - c
     head_inertia: np.ndarray  # a (k,)
     head_strain: np.ndarray  # b (k,)

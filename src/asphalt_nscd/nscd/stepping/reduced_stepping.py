@@ -121,7 +121,7 @@ class ReducedStepper:
             self._maxima[2] = self._borne()  # of bonds that the excerpt did not list
         return self._part
 
-    def _of_bonds(self, question: Callable[[ReducedModel | Excerpt], Answer]) -> Answer:
+    def _ask_bonds(self, question: Callable[[ReducedModel | Excerpt], Answer]) -> Answer:
         """The answer of the excerpt if it has one, else that of the whole model."""
         try:
             return question(self._part)
@@ -190,10 +190,10 @@ class ReducedStepper:
 
     def certificate(self) -> Certificate:
         """Bounds over all accepted steps."""
-        gap = self._of_bonds(lambda part: part.bounds.smallest_gap(self._reached_motion))
+        gap = self._ask_bonds(lambda part: part.bounds.smallest_gap(self._reached_motion))
         return Certificate(
             largest_residual=float(self._maxima[1]),
-            largest_utilisation=self._of_bonds(lambda part: self._borne(of_all=True)),
+            largest_utilisation=self._ask_bonds(lambda part: self._borne(of_all=True)),
             smallest_gap=min(gap, self._smallest_gap),
             enrichments=self.enrichments,
         )
@@ -204,7 +204,7 @@ class ReducedStepper:
         inverse = self._step_inverse()
         run = ReducedRun(
             driven,
-            self.devices.of_head,
+            self.devices.head_constants,
             *self._seen_from_head(inverse),
             model.mass,
             model.stiffness,
@@ -260,21 +260,21 @@ class ReducedStepper:
 
     def _widen_envelope(self, sigma: np.ndarray, motion: np.ndarray) -> None:
         """Far beyond |s| and |q| (k,) if no bond could yield or close there, else to their double."""
-        s, q = self._beyond(FAR * sigma, FAR * motion)
+        s, q = self._outer_envelope(FAR * sigma, FAR * motion)
         # a wide envelope is rarely left, but where bonds come near yield within it they would all be watched
         # in each step
-        growth = 2.0 if self._of_bonds(lambda part: part.bounds.any_candidate(s, q)) else FAR
+        growth = 2.0 if self._ask_bonds(lambda part: part.bounds.any_candidate(s, q)) else FAR
         self._watch(growth * sigma, growth * motion)
 
     def _watch(self, sigma: np.ndarray, motion: np.ndarray) -> None:
         """Widen the envelope of s and q, and list the bonds that could yield or close within it."""
         # before the lists change: of bonds that are no longer watched only a bound is known
         self._maxima[2] = self._borne()
-        s, q = self._sigma_envelope, self._motion_envelope = self._beyond(sigma, motion)
-        self._may_yield, self._may_close = self._of_bonds(lambda part: part.bounds.candidates(s, q))
+        s, q = self._sigma_envelope, self._motion_envelope = self._outer_envelope(sigma, motion)
+        self._may_yield, self._may_close = self._ask_bonds(lambda part: part.bounds.candidates(s, q))
         self._look_at()
 
-    def _beyond(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    def _outer_envelope(self, sigma: np.ndarray, motion: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """An envelope that holds these and twice what has been reached."""
         return np.maximum(sigma, 2.0 * self._reached_sigma), np.maximum(motion, 2.0 * self._reached_motion)
 
@@ -290,7 +290,7 @@ class ReducedStepper:
         """What of the model shows whether the bonds watched yield or close."""
         part = self._part
         self._reaction = part.reaction_of(self._may_yield)
-        self._beyond_head = part.bounds.beyond_head(self._may_yield, self._sigma_envelope)
+        self._beyond_head = part.bounds.head_bounds(self._may_yield, self._sigma_envelope)
         self._closing = part.closing_of(self._may_close)
 
     def _enrich(self, code: int) -> None:
@@ -308,7 +308,7 @@ class ReducedStepper:
             # the exact correction of the refused step, where none was kept ready: it costs a factorisation
             self._stand_by = None  # its projection knows nothing of the directions now found
             basis = append_columns(whole.system, whole.basis, self._corrections())
-            model = whole.with_basis(basis, self.state.broken)
+            model = whole.project_anew(basis, self.state.broken)
         more, self._part = model.size - self.state.sigma.size, model
         for name in ("displacement", "velocity", "sigma", "kelvin"):
             setattr(self.state, name, _widened(getattr(self.state, name), more))
@@ -323,7 +323,7 @@ class ReducedStepper:
         system = self.model.system
         assert self._stand_by is not None and self._ritz is not None
         self._shifted = self._shifted or shifted_factor(system)
-        self._stand_by = self._stand_by.with_those_of(bonds, system, self._ritz, self._shifted, ahead)
+        self._stand_by = self._stand_by.add_directions(bonds, system, self._ritz, self._shifted, ahead)
 
     def _corrections(self) -> np.ndarray:
         """What the refused step misses of the full solution, and what its inertia will need (d, columns)."""

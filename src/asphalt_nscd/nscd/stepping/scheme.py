@@ -73,7 +73,7 @@ class History:
         padded = {n: np.pad(v, [(0, 0)] * (v.ndim - 1) + [(0, more)]) for n, v in self.values.items()}
         return History(padded, self.actuator)
 
-    def beyond(self, earlier: History, share: float) -> History:
+    def extrapolate(self, earlier: History, share: float) -> History:
         """Extrapolated: this plus `share` times the change since `earlier`."""
         values = {n: v + share * (v - earlier.values[n]) for n, v in self.values.items()}
         return History(values, self.actuator + share * (self.actuator - earlier.actuator))

@@ -12,7 +12,7 @@ from matplotlib.patches import Circle, Polygon, Rectangle
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.geometry import read_shape
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.reporting.figures import beam, cylinder, style
@@ -26,7 +26,7 @@ ARROW = {"arrowstyle": "<->", "lw": 0.5, "shrinkA": 0.0, "shrinkB": 0.0, "mutati
 @style.journal
 def draw(study: list[Path]) -> Figure:
     """Draw (a) the dimensions and (b) the scheme of the test of a study's simulated specimen."""
-    content = read_json(the_only(study, "study"))
+    content = read_json(only_file(study, "study"))
     geometry = read_shape(content["specimens"]["geometry"])
     figure, (left, right) = style.new_figure(
         style.WIDE, 88.0, columns=2, gridspec_kw={"width_ratios": (1.0, 1.5)}

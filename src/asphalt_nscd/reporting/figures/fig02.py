@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from asphalt_nscd.files.store import read_json
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.nscd.contacts.coulomb import one_contact
 from asphalt_nscd.reporting.figures import style
 
@@ -19,7 +19,7 @@ PUSH = 1.0  # approach of the two bodies without a reaction, in the unit of the 
 @style.journal
 def draw(study: list[Path]) -> Figure:
     """Draw the contact law, (a) normal and (b) tangential: reactions to free velocities, for bodies of unit mass."""
-    friction = float(read_json(the_only(study, "study"))["specimens"]["bonds"]["friction"])
+    friction = float(read_json(only_file(study, "study"))["specimens"]["bonds"]["friction"])
     figure, (left, right) = style.new_figure(style.WIDE, 56.0, columns=2)
     free = np.linspace(-PUSH, PUSH, 17)
     normal = np.array([_opening(q, 0.0, friction) for q in free])

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 
 from asphalt_nscd.files.store import read_json
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.rheology.laws_io import read_law
 from asphalt_nscd.specimen.cutting import read_specimen
@@ -24,10 +24,10 @@ HALF = 0.42  # of the distance between the branches of the Kelvin element
 @style.journal
 def draw(laws: list[Path], specimen: list[Path], study: list[Path]) -> Figure:
     """Draw (a) normal and (b) tangential components of the bond with the median area of a specimen."""
-    path = the_only(laws, "laws")
+    path = only_file(laws, "laws")
     law, temperature = read_law(path), read_json(path)["temperature_C"]
-    form = float(np.median(read_specimen(the_only(specimen, "specimen")).network.form))
-    poisson = float(read_json(the_only(study, "study"))["specimens"]["bonds"]["poisson"])
+    form = float(np.median(read_specimen(only_file(specimen, "specimen")).network.form))
+    poisson = float(read_json(only_file(study, "study"))["specimens"]["bonds"]["poisson"])
     figure, panels = style.new_figure(style.WIDE, 62.0, rows=2)
     for axes, letter, words, index, share in zip(
         panels, "ab", ("normal", "tangential"), "nt", (1.0, 0.5 / (1.0 + poisson)), strict=True

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.files.store import read_json
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.nscd.bonds.strength import utilisations
 from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.rheology.laws_io import read_law
@@ -22,9 +22,9 @@ STEPS = 600
 @style.journal
 def draw(laws: list[Path], study: list[Path]) -> Figure:
     """Draw (a) normal and (b) tangential reaction per area of a bond against its opening over l0, at three rates."""
-    path = the_only(laws, "laws")
+    path = only_file(laws, "laws")
     law, temperature = bond_law(read_law(path)), read_json(path)["temperature_C"]
-    bonds = read_json(the_only(study, "study"))["specimens"]["bonds"]
+    bonds = read_json(only_file(study, "study"))["specimens"]["bonds"]
     strength, share = float(bonds["yield_Pa"]), 0.5 / (1.0 + float(bonds["poisson"]))
     figure, panels = style.new_figure(style.WIDE, 64.0, columns=2, sharey=True)
     for axes, letter, words, normal, tangential in (

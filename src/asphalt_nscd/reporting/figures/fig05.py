@@ -12,7 +12,7 @@ from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 from asphalt_nscd.files.store import Record, load
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.section import draw_section
 from asphalt_nscd.reporting.figures.spheres import View, picture
@@ -29,11 +29,11 @@ VIEW = View(azimuth=-18.0, elevation=12.0)
 @style.journal
 def draw(deposit: list[Path], specimen: list[Path]) -> Figure:
     """Draw a sample (a) as lattice, (b) poured, (c) vibrated, (d) as specimen, (e) in section with its bonds."""
-    poured = load(the_only(deposit, "deposit"), "deposit")
-    cut = load(the_only(specimen, "specimen"), "specimen")
+    poured = load(only_file(deposit, "deposit"), "deposit")
+    cut = load(only_file(specimen, "specimen"), "specimen")
     # Shades go by the sizes poured, since those of the specimen were shrunk.
     radius, sizes = poured.arrays["radius"], np.unique(poured.arrays["radius"])
-    shades, cut_shades = _shades(radius, sizes), _shades(_before_shrinking(cut), sizes)
+    shades, cut_shades = _shades(radius, sizes), _shades(_poured_radius(cut), sizes)
     lattice, loose, dense = (poured.arrays[n] for n in ("initial_position", "poured_position", "position"))
     trimmed = cut.arrays["position"], cut.arrays["radius"]
 
@@ -70,7 +70,7 @@ def draw(deposit: list[Path], specimen: list[Path]) -> Figure:
     return figure
 
 
-def _before_shrinking(specimen: Record) -> NDArray[np.float64]:
+def _poured_radius(specimen: Record) -> NDArray[np.float64]:
     return specimen.arrays["radius"] / (1.0 - specimen.attributes["volume_reduction"]) ** (1.0 / 3.0)
 
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from asphalt_nscd.files.store import Record, load
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.reporting.figures.records import last_cycle
 
@@ -22,7 +22,7 @@ def draw(solved: list[Path], part: list[Path], stopped: list[Path]) -> Figure:
     `solved` are tests of a sample, every step solved; `stopped` are tests of a smaller specimen by Gauss-Seidel, and
     `part` is the test of that specimen, solved.
     """
-    true = load(the_only(part, "part"), "test")
+    true = load(only_file(part, "part"), "test")
     swept = [load(path, "test") for path in stopped]
     tolerances = sorted({_tolerance(one) for one in swept}, reverse=True)
     figure, (left, middle, right) = style.new_figure(style.WIDE, 62.0, columns=3)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.signals import harmonic_response
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.records import last_cycle
 
@@ -17,7 +17,7 @@ from asphalt_nscd.reporting.figures.records import last_cycle
 @style.journal
 def draw(test: list[Path]) -> Figure:
     """Draw displacement and force over the last cycle of a test; amplitudes and lag are those of the harmonic fit."""
-    record = load(the_only(test, "test"), "test")
+    record = load(only_file(test, "test"), "test")
     frequency = record.attributes["frequency_Hz"]
     time, displacement, force = last_cycle(record)
     history = record.arrays["time_s"], record.arrays["force_N"], record.arrays["displacement_m"]

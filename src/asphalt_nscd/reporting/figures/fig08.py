@@ -12,7 +12,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.geometry import shape_of
 from asphalt_nscd.measurements.shape import Shape
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures import style
 
 INSTANTS = {0.0: "0", 0.125: "T/8", 0.25: "T/4", 0.375: "3T/8", 0.5: "T/2"}
@@ -26,11 +26,11 @@ def draw(test: list[Path], specimen: list[Path]) -> Figure:
     Beside (a) stands the velocity of the beam or bar behind the form factor. A test by the harmonic method is refused,
     because it holds no velocities.
     """
-    path = the_only(test, "test")
+    path = only_file(test, "test")
     record = load(path, "test")
     if "profile/velocity_m_s" not in record.arrays:
         raise InputError(f"{path}: holds no velocities; simulate it by a method other than harmonic.")
-    shape = shape_of(load(the_only(specimen, "specimen"), "specimen").attributes)
+    shape = shape_of(load(only_file(specimen, "specimen"), "specimen").attributes)
     height, time, velocity = (
         record.arrays[f"profile/{name}"] for name in ("height_m", "time_s", "velocity_m_s")
     )

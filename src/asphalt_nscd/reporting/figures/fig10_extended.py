@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from asphalt_nscd.files.store import read_json
-from asphalt_nscd.measurements.tables import averages, origin_of, read_measured, read_tests, the_only
+from asphalt_nscd.measurements.tables import averages, only_file, origin_of, read_measured, read_tests
 from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.isotherms import APART, AXIS, error_bars
 from asphalt_nscd.rheology.laws_io import read_law
@@ -32,7 +32,7 @@ def draw(
     Burgers laws of (a), one for each temperature, and `common` the law of all temperatures in (b).
     """
     burgers = {read_json(path)["temperature_C"]: read_law(path).complex_modulus for path in laws}
-    spectrum = read_spectrum(the_only(common, "common"))
+    spectrum = read_spectrum(only_file(common, "common"))
     before, after, data = read_tests(simulations), read_tests(extended), read_measured(measured)
     temperatures = sorted(set(before["temperature_C"]) | set(after["temperature_C"]))
     frequencies = np.unique(np.concatenate([before["frequency_Hz"], after["frequency_Hz"]]))

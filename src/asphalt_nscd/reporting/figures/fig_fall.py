@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from asphalt_nscd.files.store import load
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.spheres import View, picture
 
@@ -27,7 +27,7 @@ PARTS = {  # of the account, and how they are drawn
 @style.journal
 def draw(fall: list[Path]) -> Figure:
     """Draw (a)-(d) the pieces from the side, (e) shares of the energy that the fall has set free at its end."""
-    arrays = load(the_only(fall, "fall"), "fall").arrays
+    arrays = load(only_file(fall, "fall"), "fall").arrays
     time, radius = arrays["time_s"], arrays["frames/radius_m"]
     figure, axes = style.new_figure(style.WIDE, 62.0, columns=SHOWN + 1, width_ratios=(1.0,) * SHOWN + (1.3,))
     start = arrays["frames/position_m"]

@@ -17,7 +17,7 @@ from scipy import sparse
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, load
 from asphalt_nscd.measurements.geometry import shape_of
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.spheres import View, picture
 
@@ -32,7 +32,10 @@ VIEW = View(azimuth=0.0, elevation=0.0)
 @style.journal
 def draw(model: list[Path], specimen: list[Path]) -> Figure:
     """Draw bonds (a) in tension, (b) in compression as thick as their force, (c) velocity, (d) how forces spread."""
-    condensed, cut = load(the_only(model, "model"), "model"), load(the_only(specimen, "specimen"), "specimen")
+    condensed, cut = (
+        load(only_file(model, "model"), "model"),
+        load(only_file(specimen, "specimen"), "specimen"),
+    )
     if condensed.attributes["name"] != Path(specimen[0]).stem:
         raise InputError(
             f"{model[0]}: belongs to another specimen than {specimen[0]}; give a model and its specimen."

@@ -107,15 +107,15 @@ def error_bars(
 def keys(measured: pd.DataFrame, tests: pd.DataFrame, law: bool) -> list[Line2D]:
     """Legend: what open and filled markers and lines are."""
     point: dict[str, Any] = {"ls": "", "marker": "o", "color": style.INK}
-    handles = [Line2D([], [], **point, label=_of("simulated", tests, "sample"))]
+    handles = [Line2D([], [], **point, label=_legend_text("simulated", tests, "sample"))]
     if not measured.empty:
-        origin = _of(origin_of(measured), measured, "specimen")
+        origin = _legend_text(origin_of(measured), measured, "specimen")
         handles.insert(0, Line2D([], [], **point, markerfacecolor="white", label=origin))
     if law:
         handles.append(Line2D([], [], color=style.INK, lw=0.7, label="Burgers law of the bonds"))
     return handles
 
 
-def _of(what: str, frame: pd.DataFrame, unit: str) -> str:
+def _legend_text(what: str, frame: pd.DataFrame, unit: str) -> str:
     count = frame["specimen"].nunique()
     return f"{what}, one {unit}" if count == 1 else f"{what}, mean ± s.d. of {count} {unit}s"

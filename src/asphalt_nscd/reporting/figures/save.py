@@ -23,10 +23,10 @@ def save_figure(figure: Figure, stem: str | Path) -> None:
     """Write stem.pdf, stem.png and stem.svg, in the size that the figure was drawn in."""
     for kind in _METADATA:
         with atomic_path(f"{stem}.{kind}") as path:
-            path.write_bytes(as_bytes(figure, kind))
+            path.write_bytes(figure_bytes(figure, kind))
 
 
-def as_bytes(figure: Figure, kind: str) -> bytes:
+def figure_bytes(figure: Figure, kind: str) -> bytes:
     """The figure as a "pdf", "png" or "svg" file: the same bytes whenever it is made."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()  # a user's matplotlibrc must not show

@@ -13,12 +13,12 @@ from matplotlib.figure import Figure
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.measurements.tables import (
-    at_temperature,
     averages,
+    isotherm_rows,
+    only_file,
     origin_of,
     read_measured,
     read_tests,
-    the_only,
 )
 from asphalt_nscd.reporting.figures import numbers, style
 from asphalt_nscd.reporting.figures.isotherms import APART, AXIS, SHOWN_PER_UNIT, error_bars, law_line
@@ -39,16 +39,16 @@ def figure_of(parameter: str) -> Callable[..., Figure]:
     def draw(
         sensitivity: list[Path], simulations: list[Path], measured: list[Path], laws: list[Path]
     ) -> Figure:
-        law_file = the_only(laws, "laws")
+        law_file = only_file(laws, "laws")
         temperature = read_json(law_file)["temperature_C"]
         changed = read_tests(sensitivity, numbers=["factor"], texts=["parameter"])
         changed = changed[changed["parameter"] == parameter]
         if changed.empty:
             raise InputError(f"no test with another {parameter} in the sensitivity table; simulate some.")
-        base = at_temperature(read_tests(simulations), temperature).assign(factor=1.0)
-        data = at_temperature(read_measured(measured), temperature)
+        base = isotherm_rows(read_tests(simulations), temperature).assign(factor=1.0)
+        data = isotherm_rows(read_measured(measured), temperature)
         cases = {1.0: averages(base)} | {
-            factor: averages(rows) for factor, rows in at_temperature(changed, temperature).groupby("factor")
+            factor: averages(rows) for factor, rows in isotherm_rows(changed, temperature).groupby("factor")
         }
         limits = base["frequency_Hz"].min(), base["frequency_Hz"].max()
         figure, panels = style.new_figure(style.WIDE, 66.0, columns=2)

@@ -23,7 +23,7 @@ from asphalt_nscd.diagnosis.written import (
 )
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import specimen_named
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.pages import plots, specimen_plots
 from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE, environment
 from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_ladder
@@ -58,7 +58,7 @@ CELSIUS, DEGREES, MINUS = (
 )
 
 
-def in_type(text: str) -> str:
+def typeset(text: str) -> str:
     """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus."""
     text = DEGREES.sub("°", CELSIUS.sub("°C", text).replace("+-", "±"))
     return MINUS.sub("\N{MINUS SIGN}", text)
@@ -67,7 +67,7 @@ def in_type(text: str) -> str:
 def render(content: dict[str, Any], title: str, links: Sequence[str] = ()) -> str:
     """HTML of what `sections` gives; `links` are files beside the page that hold what it shows."""
     filled = environment()
-    filled.filters["in_type"] = in_type
+    filled.filters["typeset"] = typeset
     return filled.get_template(TEMPLATE).render(
         title=title, style=STYLE, script=SCRIPT, links=links, **content
     )
@@ -127,17 +127,17 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
     found = none if "reconstructed" in content["origin"] else content["instructions"]
     return {
         "answer": brief.rows(content, left),
-        "simulated": verdict.on_simulation(content, left),
+        "simulated": verdict.simulation_miss(content, left),
         "is_simulated": left is not None or verdict.bonded(content),
         "head": verdict.TWO_LAWS,
         "two_laws": [] if left is not None else verdict.two_laws(content),
-        "with_suspects": sentences.with_suspects(content),
-        "doubtful": sentences.without_doubtful(content),
+        "with_suspects": sentences.suspect_change(content),
+        "doubtful": sentences.doubtful_change(content),
         "law": sentences.law_of_the_mix(content),
-        "of_intervals": sentences.of_intervals(content),
-        "beyond": verdict.beyond_the_tests(content),
+        "of_intervals": sentences.interval_note(content),
+        "beyond": verdict.extrapolation_warning(content),
         "causes": sentences.causes(content),
-        "no_cause": unexplained.no_cause(content),
+        "no_cause": unexplained.absence_note(content),
         "of_what_is_left": unexplained.OF_WHAT_IS_LEFT,
         "left": unexplained.left(content),
         "orders": found["orders"],
@@ -145,13 +145,13 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "ranked": sentences.RANKED,
         "limits_head": table_rows.LIMITS_HEAD,
         "limits_stated": table_rows.LIMITS_STATED,
-        "measured_limits": [[in_type(cell) for cell in row] for row in table_rows.measured_limits(content)],
+        "measured_limits": [[typeset(cell) for cell in row] for row in table_rows.measured_limits(content)],
         "scatter_caption": table_rows.SCATTER_CAPTION,
-        "scatter_head": [in_type(name).replace("deg", "°") for name in table_rows.SCATTER_HEAD],
-        "scatter": [[in_type(cell) for cell in row] for row in table_rows.scatter_rows(content)],
+        "scatter_head": [typeset(name).replace("deg", "°") for name in table_rows.SCATTER_HEAD],
+        "scatter": [[typeset(cell) for cell in row] for row in table_rows.scatter_rows(content)],
         "excess_caption": table_rows.EXCESS_CAPTION,
-        "excess_head": [in_type(name).replace("deg", "°") for name in table_rows.EXCESS_HEAD],
-        "excess": [[in_type(cell) for cell in row] for row in table_rows.excess_rows(content)],
+        "excess_head": [typeset(name).replace("deg", "°") for name in table_rows.EXCESS_HEAD],
+        "excess": [[typeset(cell) for cell in row] for row in table_rows.excess_rows(content)],
     }
 
 
@@ -204,7 +204,7 @@ def scatter(content: dict[str, Any]) -> str:
 
 def _table4(paths: Sequence[Path]) -> list[list[str]]:
     """Published and predicted errors by temperature; empty where nothing was published."""
-    table = read_csv(the_only(paths, "table4"))
+    table = read_csv(only_file(paths, "table4"))
     if TABLE4[1] not in table.columns:
         return []
     table.require(TABLE4)
@@ -257,7 +257,7 @@ def _way(paths: Sequence[Path]) -> dict[str, Any]:
 
 def _suspect(one: dict[str, Any]) -> list[str]:
     where = [one["specimen"], place_name(one["temperature_C"]), f"{one['frequency_Hz']:g} Hz"]
-    return [*where, "yes" if one["used"] else "no", in_type("; ".join(one["reasons"]))]
+    return [*where, "yes" if one["used"] else "no", typeset("; ".join(one["reasons"]))]
 
 
 def _members(names: list[str]) -> list[str]:
@@ -270,7 +270,7 @@ def _cause(rung: dict[str, Any]) -> str:
 
 
 def _estimate(name: str, estimate: dict[str, Any], factor: float) -> str:
-    return in_type(f"{name.replace('_', ' ')} {sentences.estimate(estimate, factor)}")
+    return typeset(f"{name.replace('_', ' ')} {sentences.estimate(estimate, factor)}")
 
 
 def _warning(last: bool, gain: dict[str, Any], inner: bool) -> str:

@@ -13,8 +13,8 @@ from asphalt_nscd.diagnosis.words import sentences
 from asphalt_nscd.diagnosis.written import read_diagnosis, three_digits
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import counted, joined
-from asphalt_nscd.measurements.tables import the_only
-from asphalt_nscd.reporting.pages.diagnosis_page import first, in_type, scatter
+from asphalt_nscd.measurements.tables import only_file
+from asphalt_nscd.reporting.pages.diagnosis_page import first, scatter, typeset
 from asphalt_nscd.reporting.pages.way import LIKELIEST, held_out, means, read_ladder
 
 ENOUGH = 5000  # spheres
@@ -66,12 +66,12 @@ def first_page(
         "found": [(label, _typed(said)) for label, said in told["answer"] if label not in ELSEWHERE],
         "causes": _typed(told["causes"]),
         "law": _typed(told["law"] or []),
-        "orders": [in_type(" ".join([one["text"], *one["why"]])) for one in told["orders"]],
+        "orders": [typeset(" ".join([one["text"], *one["why"]])) for one in told["orders"]],
         "notes": _typed(content["notes"]),
         "gained": gained,
         "left_out": left_out,
         "held_out": None if left_out else _held_out(way),
-        "elsewhere": _on_other_data([path for path in beside if path.stem == "ensemble"]),
+        "elsewhere": _gain_on_other_data([path for path in beside if path.stem == "ensemble"]),
         "pictures": [b64encode(path.read_bytes()).decode() for path in pictures],
     }
 
@@ -87,10 +87,10 @@ def _lead(
         (sure if rung["established"] else unsure).append(words)
     why = [f"{joined(sure)}: established"] if sure else []
     why += [f"{joined(unsure)}: likely, not certain"] if unsure else []
-    said = in_type("; ".join(why))
+    said = typeset("; ".join(why))
     # The scatter stands in the last row, below the rungs.
     last, scatter_of_one = gained[-2], gained[-1]
-    act = in_type(orders[0]["text"]) if orders else ""
+    act = typeset(orders[0]["text"]) if orders else ""
     invented = "reconstructed" in content["origin"]
     if invented:
         act = "Get the measurements of the paper's figures: these data are reconstructed, nobody can test them again."
@@ -128,11 +128,11 @@ def _heading(origin: str) -> str:
 
 def _typed(value: Any) -> Any:
     """Sentences of the terminal as they are printed on a page."""
-    return in_type(value) if isinstance(value, str) else [_typed(part) for part in value]
+    return typeset(value) if isinstance(value, str) else [_typed(part) for part in value]
 
 
 def _frame(paths: Sequence[Path], name: str) -> pd.DataFrame:
-    table = read_csv(the_only(paths, name))
+    table = read_csv(only_file(paths, name))
     # Only these: a specimen called 01 is no number.
     numbers = ("temperature_C", "frequency_Hz", "E_MPa", "phase_deg", "spheres", "bonds", "E_over_law")
     return pd.DataFrame(
@@ -217,7 +217,7 @@ def _left_out(way: pd.DataFrame, rivals: Sequence[Path]) -> list[tuple[str, ...]
     temperatures = [held_out(way, ends) for ends in (False, True)]
     if not rivals or not all(temperatures):
         return []
-    table = read_csv(the_only(rivals, "rivals"))
+    table = read_csv(only_file(rivals, "rivals"))
     frequencies = [
         {name: table.numbers_or_nan(f"{kind}_frequencies_{name}_percent")[0] for name in ("E", "phase")}
         for kind in ("inner", "end")
@@ -228,11 +228,11 @@ def _left_out(way: pd.DataFrame, rivals: Sequence[Path]) -> list[tuple[str, ...]
     ]
 
 
-def _on_other_data(ensemble: Sequence[Path]) -> str | None:
+def _gain_on_other_data(ensemble: Sequence[Path]) -> str | None:
     """What the one law gains on data of which the paper's laws are the fit and its errors the residual."""
     if not ensemble:
         return None
-    table = read_csv(the_only(ensemble, "ensemble"))
+    table = read_csv(only_file(ensemble, "ensemble"))
     one, burgers = (
         [three_digits(table.numbers_or_nan(f"{kind}_{quantity}_percent")[0]) for quantity in ("E", "phase")]
         for kind in ("mean", "burgers")

@@ -12,7 +12,7 @@ from asphalt_nscd.files.store import atomic_path
 from asphalt_nscd.forecasting import written
 from asphalt_nscd.forecasting.forecast import Forecast
 from asphalt_nscd.reporting.figures import forecast_panels
-from asphalt_nscd.reporting.figures.save import as_bytes
+from asphalt_nscd.reporting.figures.save import figure_bytes
 from asphalt_nscd.reporting.pages.style import STYLE, environment
 
 PAGE = "forecast.html"
@@ -86,4 +86,4 @@ def _row(level: dict) -> list[str]:
 
 
 def _png(figure: Figure) -> str:
-    return b64encode(as_bytes(figure, "png")).decode()
+    return b64encode(figure_bytes(figure, "png")).decode()

@@ -20,7 +20,7 @@ from asphalt_nscd.diagnosis.written import (
 )
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import counted, specimen_named
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures.numbers import celsius, minus
 from asphalt_nscd.reporting.pages.svg import (
     HINT,
@@ -79,7 +79,7 @@ def charts(residuals: Sequence[Path], diagnosis: Sequence[Path]) -> list[Chart]:
 
 def law_chart(title: str, curve: Sequence[Path]) -> Chart:
     """|E*| and phase of the law and the free master curve, with 95 % bands, at the reference temperature."""
-    table = read_csv(the_only(curve, "master curve"))
+    table = read_csv(only_file(curve, "master curve"))
     names = [name for name in table.columns if name != "temperature_C"]
     frame = pd.DataFrame({name: table.numbers(name) for name in names})
     at = celsius(float(table.numbers("temperature_C")[0]))

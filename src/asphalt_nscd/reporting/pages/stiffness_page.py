@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 
 from asphalt_nscd.files.store import atomic_path
-from asphalt_nscd.reporting.pages.diagnosis_page import in_type
+from asphalt_nscd.reporting.pages.diagnosis_page import typeset
 from asphalt_nscd.reporting.pages.laboratory import PAGE
 from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE
 from asphalt_nscd.reporting.pages.svg import HINT, MODULUS, Axis, Frame, colours, key, svg, test
@@ -40,7 +40,7 @@ def write_page(folder: Path, title: str, said: str) -> Path:
         parts.append("</g>")
     lines = (line.partition("  ") for line in said.splitlines())
     answer = "".join(
-        f'<tr><th scope="row">{escape(name)}</th><td>{escape(in_type(text.strip()))}</td></tr>'
+        f'<tr><th scope="row">{escape(name)}</th><td>{escape(typeset(text.strip()))}</td></tr>'
         for name, _, text in lines
     )
     # The heads of this table stand at its left, where those of page.css would stick to the top.

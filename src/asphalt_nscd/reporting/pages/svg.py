@@ -94,7 +94,7 @@ class _Range:
         room = 0.05 * (high - low) or 0.5
         return cls(low - room, high + room)
 
-    def on(self, place: float | np.ndarray, start: float, end: float) -> np.ndarray:
+    def coordinate(self, place: float | np.ndarray, start: float, end: float) -> np.ndarray:
         return start + (np.asarray(place) - self.low) / (self.high - self.low) * (end - start)
 
 
@@ -109,13 +109,13 @@ class Frame:
         )
         self.parts: list[str] = []
         for place, label in x.ticks(self.across.low, self.across.high):
-            at = float(self.across.on(place, LEFT, WIDTH - RIGHT))
+            at = float(self.across.coordinate(place, LEFT, WIDTH - RIGHT))
             self.parts.append(f'<path class="grid" d="M{at:.1f} {TOP}V{HEIGHT - BOTTOM}"/>')
             # Centred, the last label would be cut off.
             at_edge = at > WIDTH - RIGHT - 3.0 * len(label)
             self.parts.append(text(at, HEIGHT - BOTTOM + 15, label, "end" if at_edge else "middle"))
         for place, label in y.ticks(self.up.low, self.up.high):
-            at = float(self.up.on(place, HEIGHT - BOTTOM, TOP))
+            at = float(self.up.coordinate(place, HEIGHT - BOTTOM, TOP))
             self.parts.append(f'<path class="grid" d="M{LEFT} {at:.1f}H{WIDTH - RIGHT}"/>')
             self.parts.append(text(LEFT - 5, at + 4, label, "end"))
         self.parts.append(f'<path class="axis" d="M{LEFT} {TOP}V{HEIGHT - BOTTOM}H{WIDTH - RIGHT}"/>')
@@ -128,8 +128,8 @@ class Frame:
         `end` is the ending of their names: empty for what was measured, else "_after", "_low" or "_high".
         """
         columns = (
-            self.across.on(self.x.place(self.x.values(table, end)), LEFT, WIDTH - RIGHT),
-            self.up.on(self.y.place(self.y.values(table, end)), HEIGHT - BOTTOM, TOP),
+            self.across.coordinate(self.x.place(self.x.values(table, end)), LEFT, WIDTH - RIGHT),
+            self.up.coordinate(self.y.place(self.y.values(table, end)), HEIGHT - BOTTOM, TOP),
         )
         return list(zip(*columns, strict=True))
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 
 from asphalt_nscd.files.csvinput import read_csv
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 
 LIKELIEST = "likeliest"  # the rung of the likeliest reading of the paper, below all others
 QUANTITIES = {"E": "|E*|", "phase": "phase"}
@@ -16,7 +16,7 @@ QUANTITIES = {"E": "|E*|", "phase": "phase"}
 
 def read_ladder(paths: Sequence[Path]) -> pd.DataFrame:
     """Read the one ladder.csv: rung, temperature_C and errors in percent; NaN where one does not apply."""
-    table = read_csv(the_only(paths, "ladder"))
+    table = read_csv(only_file(paths, "ladder"))
     names = ["temperature_C"]
     for quantity in QUANTITIES:
         names += [f"mre_{quantity}{kind}_percent" for kind in ("", "_law", "_held_out")]

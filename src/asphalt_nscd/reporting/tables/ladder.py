@@ -15,11 +15,11 @@ from asphalt_nscd.measurements.tables import (
     KEYS,
     MODULUS,
     OF_THE_LAW,
-    at_temperature,
+    isotherm_rows,
+    only_file,
     origin_of,
     read_measured,
     read_tests,
-    the_only,
 )
 from asphalt_nscd.reporting.pages.way import LIKELIEST
 from asphalt_nscd.reporting.tables.table4 import ERRORS, name_of, named, read_errors
@@ -43,7 +43,7 @@ def make(
     extended: with what the diagnosis named as well. law: the error of the law that this campaign has in its bonds;
     held_out: of the law of all temperatures, fitted without this one; scatter: of one test.
     """
-    data, content = read_measured(measured), read_json(the_only(diagnosis, "diagnosis"))
+    data, content = read_measured(measured), read_json(only_file(diagnosis, "diagnosis"))
     campaigns: dict[str, Sequence[Path]] = {LIKELIEST: likely} if likely else {}
     campaigns |= {PAPER: simulations, FACETS: facets} if facets else {FACETS: simulations}
     if extended:
@@ -65,15 +65,15 @@ def make(
     table["scatter_E_percent"] = content["scatter"]["modulus_percent"]
     degrees = content["scatter"]["phase_deg"]
     of_phase = {
-        t: 100.0 * float((degrees / at_temperature(data, t)["phase_deg"]).abs().mean())
+        t: 100.0 * float((degrees / isotherm_rows(data, t)["phase_deg"]).abs().mean())
         for t in table["temperature_C"].unique()
     }
     table["scatter_phase_percent"] = table["temperature_C"].map(of_phase)
     if published:
-        printed = named(read_errors(the_only(published, "published")), "published")
+        printed = named(read_errors(only_file(published, "published")), "published")
         # A temperature that the paper lacks stays, with empty cells.
         table = table.merge(printed, on="temperature_C", how="left")
-    table.insert(2, "compared_with", [origin_of(at_temperature(data, t)) for t in table["temperature_C"]])
+    table.insert(2, "compared_with", [origin_of(isotherm_rows(data, t)) for t in table["temperature_C"]])
     kinds = [name for name in table if name not in ("rung", "temperature_C", "compared_with")]
     # A stable sort: |E*| first, and within each the kinds as they were made.
     return table[["rung", "temperature_C", "compared_with", *sorted(kinds, key=lambda name: "phase" in name)]]

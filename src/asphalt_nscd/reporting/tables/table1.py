@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.csvinput import read_csv
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.tables.table2 import COUNT, PERCENT, SIEVE
 
 
@@ -18,9 +18,9 @@ def make(grading: list[Path], used: list[Path]) -> pd.DataFrame:
     spheres: number poured, none where a sieve belongs to the mastic. retained_shown_percent: what the sieve retains of
     all that spheres stand for; volume_percent: of the spheres, theirs.
     """
-    sieves = read_csv(the_only(grading, "grading"))
+    sieves = read_csv(only_file(grading, "grading"))
     sieves.require(["diameter_mm", "passing_percent"])
-    counts = read_csv(the_only(used, "used"))
+    counts = read_csv(only_file(used, "used"))
     counts.require(["diameter_mm", "count"])
     number = pd.Series(counts.numbers("count", COUNT), index=counts.numbers("diameter_mm", SIEVE))
     table = pd.DataFrame(

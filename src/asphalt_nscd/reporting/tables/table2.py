@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 
 PERCENT = Limits(0.0, 100.0, "give a percentage")
 SIEVE = Limits(1e-4, 1000.0, "give the sieve in mm")
@@ -23,7 +23,7 @@ def make(grading: list[Path], published: list[Path], used: list[Path]) -> pd.Dat
     Counts from the grading are scaled to as many spheres as are published; they stand only beside
     diameters that are sieves of the grading.
     """
-    sieves = read_csv(the_only(grading, "grading"))
+    sieves = read_csv(only_file(grading, "grading"))
     sieves.require(["diameter_mm", "passing_percent"])
     curve = sieves.numbers("diameter_mm", SIEVE), sieves.numbers("passing_percent", PERCENT)
     printed, poured = _counts(published, "published"), _counts(used, "used")
@@ -63,6 +63,6 @@ def counts_of_grading(
 
 
 def _counts(paths: list[Path], kind: str) -> pd.Series:
-    table = read_csv(the_only(paths, kind))
+    table = read_csv(only_file(paths, kind))
     table.require(["diameter_mm", "count"])
     return pd.Series(table.numbers("count", COUNT), index=table.numbers("diameter_mm", SIEVE))

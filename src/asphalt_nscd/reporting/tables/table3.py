@@ -11,7 +11,7 @@ import pandas as pd
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json
-from asphalt_nscd.measurements.tables import SAME_TEMPERATURE, at_temperature, origin_of, read_measured
+from asphalt_nscd.measurements.tables import SAME_TEMPERATURE, isotherm_rows, origin_of, read_measured
 from asphalt_nscd.rheology.laws_io import read_law
 from asphalt_nscd.rheology.published_laws import read_published
 
@@ -47,7 +47,7 @@ def make(fitted: list[Path], measured: list[Path], published: Sequence[Path] = (
                     "fitted": getattr(law, field) * MEGA,
                     # as many unknowns as data leave no standard error
                     "standard_error": content["std_error"][key] * MEGA if content["std_error"] else np.nan,
-                    "fitted_to": origin_of(at_temperature(data, temperature)),
+                    "fitted_to": origin_of(isotherm_rows(data, temperature)),
                 }
             )
     table = pd.DataFrame(rows).sort_values("temperature_C", kind="stable", ignore_index=True)

@@ -13,11 +13,11 @@ from asphalt_nscd.measurements.tables import (
     KEYS,
     MODULUS,
     OF_THE_LAW,
-    at_temperature,
+    isotherm_rows,
+    only_file,
     origin_of,
     read_measured,
     read_tests,
-    the_only,
 )
 
 ERRORS = ["mre_E_percent", "mre_phase_percent"]
@@ -34,11 +34,11 @@ def make(simulations: list[Path], measured: list[Path], published: Sequence[Path
     simulated = named(mean_relative_error(data, tests), "simulated")
     table = simulated.merge(named(mean_relative_error(data, law), "law"), on="temperature_C")
     if published:
-        printed = read_errors(the_only(published, "published"))
+        printed = read_errors(only_file(published, "published"))
         # A temperature that the paper lacks stays, with an empty cell.
         table = table.merge(named(printed, "published"), on="temperature_C", how="left")
     kinds = ["published", "simulated", "law"] if published else ["simulated", "law"]
-    table["compared_with"] = [origin_of(at_temperature(data, t)) for t in table["temperature_C"]]
+    table["compared_with"] = [origin_of(isotherm_rows(data, t)) for t in table["temperature_C"]]
     errors = [name_of(error, kind) for error in ERRORS for kind in kinds]
     return table[["temperature_C", "compared_with", *errors]]
 

@@ -11,7 +11,7 @@ from scipy import sparse
 from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.bending.collect import collect
 from asphalt_nscd.bending.model import read_model
-from asphalt_nscd.measurements.tables import the_only
+from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.rheology.laws_io import read_bond_law
@@ -37,10 +37,10 @@ def make(
     finest = whole.loc[whole["time_step_s"].idxmin()]
     rows = [_row(SOLVED, np.nan, one, finest) for _, one in whole.iterrows()]
     rows += [_row(SWEPT, one["tolerance"], one, true) for _, one in swept.iterrows()]
-    bonds = bond_law(read_bond_law(the_only(law, "law")))
+    bonds = bond_law(read_bond_law(only_file(law, "law")))
     frequency = float(whole["frequency_Hz"].iloc[0])
     rows.append({"scheme": f"{SOLVED}, longest", "time_step_s": longest_step(bonds, 2.0 * np.pi * frequency)})
-    system = read_model(the_only(model, "model")).system
+    system = read_model(only_file(model, "model")).system
     rows.append({"scheme": f"{EXPLICIT}, longest", "time_step_s": explicit_step(system, bonds.spring)})
     return pd.DataFrame(rows)
 
