@@ -5,12 +5,23 @@
 RECIPE = "data/forecast/recipe.yaml"
 FORECAST_FILES = ["forecast.csv", "rivals.csv", "law.json", "forecast.json", "forecast.html"]
 
+# Scripts of studies/ import each other and, where the clone is not installed, its package.
+_installed = not DEPLOYED and shutil.which("asphalt-nscd", path=Path(sys.executable).parent)
+_roots = [CLONE / "studies", *([] if _installed else [CLONE / "src"]), os.environ.get("PYTHONPATH")]
+os.environ["PYTHONPATH"] = os.pathsep.join(str(root) for root in _roots if root)
+
+
+def studied(name):
+    """What stands for the source behind a script of studies/forecast."""
+    files = source_files(CLONE / f"studies/forecast/{name}.py")
+    return local(stamp(".snakemake/code", f"studies-forecast-{name}", files).as_posix())
+
 
 rule forecast_packings:
     # Filler, sand and stones, each poured from its own part of the grading.
     input:
         recipe=RECIPE,
-        code=code("forecast_packings"),
+        code=studied("packings"),
     output:
         directory("results/forecast/packings"),
     conda:
@@ -21,8 +32,8 @@ rule forecast_packings:
         "<results>/benchmarks/forecast_packings.tsv"
     message:
         "Pour the levels of the recipe"
-    shell:
-        "asphalt-nscd forecast-packings {input.recipe} --other-cuts --output {output} > {log} 2>&1"
+    script:
+        "../../studies/forecast/packings.py"
 
 
 rule forecast_recipe:
@@ -53,11 +64,9 @@ rule forecast_mixes:
         recipe=RECIPE,
         mixes="data/forecast/binder_mix.csv",
         packings="results/forecast/packings",
-        code=code("forecast_mixes"),
+        code=studied("mixes"),
     output:
-        expand("results/forecast/mixes/{table}.csv", table=["errors", "points", "overall", "bands"]),
-    params:
-        folder=lambda wildcards, output: os.path.dirname(output[0]),
+        **{table: f"results/forecast/mixes/{table}.csv" for table in ("errors", "points", "overall", "bands")},
     conda:
         ENVIRONMENT
     log:
@@ -66,8 +75,8 @@ rule forecast_mixes:
         "<results>/benchmarks/forecast_mixes.tsv"
     message:
         "Hold the forecast against six measured mixes"
-    shell:
-        "asphalt-nscd forecast-mixes {input.recipe} --mixes {input.mixes} --packings {input.packings} --output {params.folder} > {log} 2>&1"
+    script:
+        "../../studies/forecast/mixes.py"
 
 
 rule forecast_voids:
@@ -76,9 +85,11 @@ rule forecast_voids:
         recipe=RECIPE,
         campaign=[f"data/ncat/{table}" for table in sorted(os.listdir(CLONE / "data/ncat")) if table.endswith(".csv")],
         packings="results/forecast/packings",
-        code=code("forecast_voids"),
+        code=studied("voids"),
     output:
         "results/forecast/voids.csv",
+    params:
+        campaign="data/ncat",
     conda:
         ENVIRONMENT
     log:
@@ -87,8 +98,8 @@ rule forecast_voids:
         "<results>/benchmarks/forecast_voids.tsv"
     message:
         "Hold the cost of air voids against the NCAT specimens"
-    shell:
-        "asphalt-nscd forecast-voids {input.recipe} --campaign data/ncat --packings {input.packings} --output {output} > {log} 2>&1"
+    script:
+        "../../studies/forecast/voids.py"
 
 
 rule forecast_paper:
@@ -97,7 +108,7 @@ rule forecast_paper:
         recipe=RECIPE,
         grading="data/paper/table1_grading.csv",
         laws="data/paper/table3_burgers.csv",
-        code=code("forecast_paper"),
+        code=studied("paper_mix"),
     output:
         table="results/forecast/paper_mix.csv",
         packings=directory("results/forecast/paper_packings"),
@@ -109,8 +120,8 @@ rule forecast_paper:
         "<results>/benchmarks/forecast_paper.tsv"
     message:
         "Forecast the paper's mix from the grade of its binder"
-    shell:
-        "asphalt-nscd forecast-paper {input.recipe} --grading {input.grading} --laws {input.laws} --packings {output.packings} --output {output.table} > {log} 2>&1"
+    script:
+        "../../studies/forecast/paper_mix.py"
 
 
 rule forecast_wrong_recipes:
@@ -118,12 +129,9 @@ rule forecast_wrong_recipes:
     input:
         recipe=RECIPE,
         packings="results/forecast/packings",
-        program=shipped("trials/wrong_recipes.py"),
-        code=code("forecast_inputs", "forecasting.wrong_inputs"),
+        code=studied("wrong_recipes"),
     output:
         "results/forecast/wrong_recipes.csv",
-    params:
-        program=f"env PYTHONPATH={os.path.relpath(CLONE / 'trials')} python -m wrong_recipes",
     conda:
         ENVIRONMENT
     log:
@@ -132,8 +140,8 @@ rule forecast_wrong_recipes:
         "<results>/benchmarks/forecast_wrong_recipes.tsv"
     message:
         "Name the wrong inputs of drawn recipes"
-    shell:
-        "{params.program} --recipe {input.recipe} --packings {input.packings} --output {output} > {log} 2>&1"
+    script:
+        "../../studies/forecast/wrong_recipes.py"
 
 
 rule forecast_figure:

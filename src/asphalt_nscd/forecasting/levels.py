@@ -10,12 +10,6 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.recipe import Recipe
 
 CUTS = (0.063e-3, 2e-3)  # m: filler, sand, stones
-OTHER_CUTS = {
-    "stones from 1 mm": (0.063e-3, 1e-3),
-    "stones from 4 mm": (0.063e-3, 4e-3),
-    "two sands": (0.063e-3, 0.5e-3, 2e-3),
-}
-"""What else might be done; docs/forecast.md shows what each changes."""
 NAMES = {1: ("mix",), 2: ("mortar", "mix"), 3: ("mastic", "mortar", "mix")}
 RANGE = 5.0  # largest over smallest grain of a packing; finer grains of the level count in its fraction
 CLASSES = 6  # sizes of a packing

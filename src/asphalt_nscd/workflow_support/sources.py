@@ -21,15 +21,17 @@ from asphalt_nscd.files.store import atomic_path
 PACKAGE = Path(__file__).resolve().parents[1]
 
 
-def source_files(*modules: str) -> list[Path]:
+def source_files(*modules: str | Path) -> list[Path]:
     """Files of `modules` (dotted, relative to the package) and of all they import from it, sorted.
+
+    A path is a script outside the package: what it imports from its own folder, by the folder's name, counts too.
 
     Imports inside functions count. A package's `__init__.py` counts only where it is itself imported.
     """
     found: set[Path] = set()
     waiting = []
     for module in modules:
-        file = _file(("asphalt_nscd", *module.split(".")))
+        file = module if isinstance(module, Path) else _file(("asphalt_nscd", *module.split(".")))
         if file is None:
             raise ValueError(f"no module asphalt_nscd.{module}")
         waiting.append(file)
@@ -49,9 +51,7 @@ def stamp(folder: str | Path, name: str, files: Sequence[Path]) -> Path:
     """
     digest = hashlib.sha256()
     for file in files:
-        digest.update(
-            f"{file.relative_to(PACKAGE)}\n{_read(file, file.stat().st_mtime_ns).meaning}\n".encode()
-        )
+        digest.update(f"{_place(file)}\n{_read(file, file.stat().st_mtime_ns).meaning}\n".encode())
     return _keep(Path(folder, name), digest.hexdigest(), files)
 
 
@@ -107,7 +107,7 @@ class _Source:
 @cache
 def _read(path: Path, mtime_ns: int) -> _Source:
     """mtime_ns: as it stood at which moment."""
-    place, content = path.relative_to(PACKAGE).as_posix(), path.read_bytes()
+    place, content = _place(path), path.read_bytes()
     parsed = _parsed(PACKAGE)
     entry = parsed.get(place)
     # Sealed with all that it depends on, so that an entry that is stale, broken or of another Python says so itself.
@@ -115,13 +115,17 @@ def _read(path: Path, mtime_ns: int) -> _Source:
         found = _parse(path, content)
         parsed[place] = entry = [_seal(content, found), *found]
     _, meaning, imports = entry
-    files = (_file(tuple(name.split("."))) or _file(tuple(base.split("."))) for name, base in imports)
+    files = (
+        _file(tuple(name.split(".")), path) or _file(tuple(base.split(".")), path) for name, base in imports
+    )
     return _Source(meaning, frozenset(file for file in files if file is not None))
 
 
 def _parse(path: Path, content: bytes) -> list[Any]:
     """Digest of the syntax tree without docstrings; names that may be modules, each with what else it may be."""
-    package = ("asphalt_nscd", *path.relative_to(PACKAGE).parent.parts)
+    within = path.is_relative_to(PACKAGE)
+    package = ("asphalt_nscd", *path.relative_to(PACKAGE).parent.parts) if within else ()
+    ours = ("asphalt_nscd",) if within else ("asphalt_nscd", path.parent.name)
     imports: set[tuple[str, str]] = set()
     tree = ast.parse(content)
     for node in ast.walk(tree):
@@ -135,7 +139,7 @@ def _parse(path: Path, content: bytes) -> list[Any]:
             base += tuple((node.module or "").split(".")) if node.module else ()
             imports.update((".".join((*base, name.name)), ".".join(base)) for name in node.names)
     meaning = hashlib.sha256(ast.dump(tree, annotate_fields=False).encode()).hexdigest()
-    return [meaning, sorted([name, base] for name, base in imports if name.startswith("asphalt_nscd"))]
+    return [meaning, sorted([name, base] for name, base in imports if name.startswith(ours))]
 
 
 def _seal(content: bytes, found: list[Any]) -> str:
@@ -177,11 +181,19 @@ def _keep_parsed(kept: Path, parsed: dict[str, Any], before: str) -> None:
             temporary.unlink(missing_ok=True)
 
 
-def _file(module: tuple[str, ...]) -> Path | None:
-    """File of a dotted module name; None if it is not a module of this package."""
-    if module[:1] != ("asphalt_nscd",):
+def _place(path: Path) -> str:
+    """Where a source file lies, seen from the package."""
+    return Path(os.path.relpath(path, PACKAGE)).as_posix()
+
+
+def _file(module: tuple[str, ...], importer: Path = PACKAGE) -> Path | None:
+    """File of a dotted module name; None if it is neither of this package nor of the folder of a script."""
+    if module[:1] == ("asphalt_nscd",):
+        place = PACKAGE.joinpath(*module[1:])
+    elif module[:1] == (importer.parent.name,):
+        place = importer.parents[1].joinpath(*module)
+    else:
         return None
-    place = PACKAGE.joinpath(*module[1:])
     for path in (place.with_suffix(".py"), place / "__init__.py"):
         if path.is_file():
             return path

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from asphalt_nscd.forecasting.grade import EXPONENT, compare_paper, softening_point, stiffness
+from forecast.paper_mix import EXPONENT, compare_paper, softening_point, stiffness
 
 
 def test_a_point_by_hand():
@@ -31,7 +31,6 @@ def test_the_papers_mix(recipe, networks):
         "data/paper/table3_burgers.csv",
         recipe,
         networks,
-        lambda *_: None,
     )
     assert set(found["temperature_C"]) == {10.0, 15.0, 20.0, 30.0} and set(found["frequency_Hz"]) == {
         3,

@@ -4,9 +4,7 @@ The law of the binder cancels: each state is taken at the modulus of binder with
 binder content are those of the specimens, the grading that of another recipe.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
+import sys
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
@@ -16,8 +14,9 @@ import pandas as pd
 from scipy.stats import t as student
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecasting.forecast import Networks, Settings, modulus_of
-from asphalt_nscd.forecasting.recipe import Recipe
+from asphalt_nscd.files.store import write_table
+from asphalt_nscd.forecasting.forecast import Networks, Settings, kept_in, modulus_of
+from asphalt_nscd.forecasting.recipe import Recipe, read_recipe
 from asphalt_nscd.forecasting.rivals import hirsch, witczak
 from asphalt_nscd.rheology.spectrum import Spectrum
 
@@ -36,9 +35,7 @@ class _AnyBinder:
         return BINDER
 
 
-def compare_voids(
-    folder: str | Path, recipe: Recipe, networks: Networks, progress: Callable[[str, float, float], None]
-) -> pd.DataFrame:
+def compare_voids(folder: str | Path, recipe: Recipe, networks: Networks) -> pd.DataFrame:
     """d ln|E*| / d air voids [% per %], measured, forecast, by RIVALS, in a row for each temperature and frequency.
 
     Measured: regression within mixes, with its standard error and the probability of a forecast as far off. Conditions
@@ -52,15 +49,12 @@ def compare_voids(
     tests["section"] = tests["mix"].str.rsplit("_", n=1).str[0]
     names = ["forecast", *RIVALS]
     tests[names] = 0.0
-    sections = list(tests.groupby("section"))
-    for k, (_, section) in enumerate(sections):
-        progress("air voids", k, len(sections))
+    for _, section in tests.groupby("section"):
         surfaces = _surfaces(section, recipe, networks)
         for _, state in section.groupby(["mix", "temperature_C", "frequency_Hz"]):
             level = float(np.log(1e6 * state["E_MPa"]).mean())
             for name, surface in surfaces.items():
                 tests.loc[state.index, name] = _slope(surface, level)
-    progress("air voids", len(sections), len(sections))
     condition = ["mix", "temperature_C", "frequency_Hz"]
     tests["log"] = np.log(tests["E_MPa"])
     # Less the means of its mix, whose unknown binder is then gone.
@@ -138,3 +132,9 @@ def _specimens(folder: Path) -> pd.DataFrame:
             f"{folder}/volumetrics.csv: no row for specimen {row.specimen} of {row.mix}; add it."
         )
     return found.reset_index(drop=True)
+
+
+if __name__ == "__main__":
+    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+    recipe, packings = read_recipe(snakemake.input.recipe), kept_in(snakemake.input.packings)
+    write_table(snakemake.output[0], compare_voids(snakemake.params.campaign, recipe, Networks(packings)))

@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecasting import wrong_inputs
-from asphalt_nscd.forecasting.wrong_inputs import (
+from forecast import wrong_inputs
+from forecast.wrong_inputs import (
     along_reference,
     changed,
     changes_of,

@@ -5,8 +5,7 @@ Of each mix the law of the binder makes the forecast, and the law of the mix is 
 measurements, as published. All mixes of the table share one recipe.
 """
 
-from __future__ import annotations
-
+import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
@@ -17,14 +16,19 @@ import pandas as pd
 from scipy.optimize import least_squares, minimize_scalar, nnls
 
 from asphalt_nscd.files.csvinput import Limits, read_csv
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.forecasting.film import Solid
-from asphalt_nscd.forecasting.forecast import LevelResult, Networks, Settings, forecast, modulus_of
-from asphalt_nscd.forecasting.levels import OTHER_CUTS
-from asphalt_nscd.forecasting.recipe import UNSTATED, Recipe
+from asphalt_nscd.forecasting.forecast import LevelResult, Networks, Settings, forecast, kept_in, modulus_of
+from asphalt_nscd.forecasting.recipe import UNSTATED, Recipe, read_recipe
 from asphalt_nscd.forecasting.rivals import RIVALS
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius
 
+OTHER_CUTS = {  # m: what else might be done
+    "stones from 1 mm": (0.063e-3, 1e-3),
+    "stones from 4 mm": (0.063e-3, 4e-3),
+    "two sands": (0.063e-3, 0.5e-3, 2e-3),
+}
 CALIBRATED_ON, SHIFTED_ON, SHIFTED = "H0", "W0", "W"  # the shift is that of the warm mixes' binder
 PRESSURES = (0.1e3, 0.3e3, 1e3, 3e3, 10e3)  # Pa
 ANY = Limits(0.0, 1e12, "give a number that is not negative")
@@ -98,9 +102,7 @@ def rungs(settings: Settings) -> Iterator[tuple[str, Settings]]:
         yield f"levels: {name}", replace(settings, cuts=cuts)
 
 
-def compare(
-    pairs: list[Pair], networks: Networks, progress: Callable[[str, float, float], None]
-) -> tuple[pd.DataFrame, pd.DataFrame]:
+def compare(pairs: list[Pair], networks: Networks) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Errors of each rung and rival against each measured mix, and the points of the last rungs.
 
     factor_rms is exp of the root mean square of ln(|E*| / measured), phase_rms_deg that of the phase.
@@ -109,9 +111,7 @@ def compare(
     made: dict[str, tuple[str, int, Callable[[Pair], np.ndarray]]] = {}
     for name, rival in RIVALS.items():
         made[name] = "rival", 0, partial(_rival, rival)
-    steps = list(rungs(settings))
-    for k, (name, chosen) in enumerate(steps):
-        progress("rungs", k, len(steps) + 1)
+    for name, chosen in rungs(settings):
         levels = networks.chain(recipe, chosen, 1)
         made[name] = "forecast", 0, partial(_forecast, levels, recipe.aggregate)
     calibrated_on = next(pair for pair in pairs if pair.name == CALIBRATED_ON)
@@ -121,7 +121,6 @@ def compare(
         f"{fitted.settings.skeleton_pressure / 1e3:.2g} kPa, set on {CALIBRATED_ON}"
     ] = "calibrated", 2, partial(_forecast, levels, fitted.recipe.aggregate)
     fitted, levels = calibrated(calibrated_on, settings, networks, shifted=True)
-    progress("rungs", len(steps) + 1, len(steps) + 1)
     hot, stone = fitted.decades, recipe.aggregate
     made[
         f"binder {_stiffer(hot)} and skeleton {fitted.settings.skeleton_pressure / 1e3:.2g} kPa, set on {CALIBRATED_ON}"
@@ -316,3 +315,14 @@ def overall(errors: pd.DataFrame) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows)
+
+
+if __name__ == "__main__":
+    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+    given, made = snakemake.input, snakemake.output
+    networks = Networks(kept_in(given.packings))
+    pairs = read_pairs(given.mixes, read_recipe(given.recipe))
+    errors, points = compare(pairs, networks)
+    tables = {"errors": errors, "points": points, "overall": overall(errors), "bands": bands(pairs, networks)}
+    for name, table in tables.items():
+        write_table(made[name], table)

@@ -8,7 +8,7 @@ import pytest
 
 from asphalt_nscd.forecasting.forecast import MODEL
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 OVERALL = pd.read_csv(ROOT / "results/published/forecast/mixes/overall.csv").set_index("forecast")
 FORECAST = "+ air voids: the forecast"
 

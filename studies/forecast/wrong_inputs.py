@@ -17,8 +17,9 @@ from scipy.interpolate import make_interp_spline
 
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecasting.forecast import Networks, Settings, modulus_of
-from asphalt_nscd.forecasting.recipe import Recipe
+from asphalt_nscd.files.store import write_table
+from asphalt_nscd.forecasting.forecast import Networks, Settings, kept_in, modulus_of
+from asphalt_nscd.forecasting.recipe import Recipe, read_recipe
 
 SIZES: dict[str, tuple[float, ...]] = {
     "air voids": (-0.03, -0.015, 0.0, 0.015, 0.03, 0.05),  # of the volume
@@ -70,6 +71,28 @@ class Finding:
     inputs: tuple[str, ...]
     gain: dict[str, float]  # twice the gain of log likelihood of each input over no error
     size: dict[str, float]  # that fits best
+
+
+def name_wrong_input(
+    recipe: str | Path,
+    measured: str | Path,
+    reference: str | Path,
+    packings: str | Path,
+    output: str | Path,
+    weighed: tuple[float, float] | None = None,
+) -> tuple[str, ...]:
+    """The inputs that may be wrong, the likeliest first, with a table of all in `output`.
+
+    `weighed` are measured bulk and maximum density of the doubted mix [kg/m3]. Packings that lack are poured.
+    """
+    if weighed and weighed[0] > weighed[1]:
+        raise InputError("The bulk density is above the maximum; give the bulk density first.")
+    asked, ratio, known = read_ratio(measured, reference, read_recipe(recipe))
+    changes = changes_of(asked, Networks(kept_in(packings)))
+    density = np.log(np.array(weighed) / densities(asked)) if weighed else None
+    finding = find(along_reference(changes, known), ratio, density)
+    write_table(output, table(finding, limits(changes, density is not None)))
+    return finding.inputs
 
 
 def read_ratio(

@@ -5,9 +5,7 @@ before: 0.01 to 0.1 s, 20 to 60 K below the softening point, index of penetratio
 time of loading it is a power law, whose phase is that of its exponent.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
+import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,8 +13,9 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.files.csvinput import Limits, read_csv
-from asphalt_nscd.forecasting.forecast import Networks, Settings, modulus_of
-from asphalt_nscd.forecasting.recipe import Grading, Recipe
+from asphalt_nscd.files.store import write_table
+from asphalt_nscd.forecasting.forecast import Networks, Settings, kept_in, modulus_of
+from asphalt_nscd.forecasting.recipe import Grading, Recipe, read_recipe
 from asphalt_nscd.rheology.published_laws import read_published
 
 # S = 1.157e-7 t^-0.368 exp(-index) (softening point - T)^5 [MPa], with t = 1 / omega.
@@ -48,13 +47,7 @@ def stiffness(penetration: float, temperature: np.ndarray, omega: np.ndarray) ->
     return np.where(known, modulus, np.nan) * np.exp(0.5j * np.pi * EXPONENT)
 
 
-def compare_paper(
-    grading: str | Path,
-    laws: str | Path,
-    recipe: Recipe,
-    networks: Networks,
-    progress: Callable[[str, float, float], None],
-) -> pd.DataFrame:
+def compare_paper(grading: str | Path, laws: str | Path, recipe: Recipe, networks: Networks) -> pd.DataFrame:
     """The paper's mix forecast from the grade of its binder, beside Table 3: |E*| [MPa] and phase of each point.
 
     All else is that of the recipe: the paper gives neither binder content nor air voids nor densities. `grading` is a
@@ -66,9 +59,7 @@ def compare_paper(
     passing = 0.01 * table.numbers("passing_percent", Limits(0.0, 100.0, "give per cent that passes"))
     order = np.argsort(sieve)
     own = replace(recipe, grading=Grading(sieve[order], passing[order]), file=str(grading))
-    progress("networks", 0, 1)
     levels = networks.chain(own, Settings(), 1)
-    progress("networks", 1, 1)
     rows = []
     for temperature, law in zip(*read_published(laws), strict=True):
         omega = 2.0 * np.pi * np.array(FREQUENCIES)
@@ -94,3 +85,10 @@ def compare_paper(
                 }
             )
     return pd.DataFrame(rows)
+
+
+if __name__ == "__main__":
+    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+    given, made = snakemake.input, snakemake.output
+    networks = Networks(kept_in(made.packings))
+    write_table(made.table, compare_paper(given.grading, given.laws, read_recipe(given.recipe), networks))

@@ -9,9 +9,9 @@ from scipy.optimize import minimize_scalar
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.forecast import Settings, forecast, modulus_of
-from asphalt_nscd.forecasting.mixes import bands, best_map, binder_shift, read_pairs
 from asphalt_nscd.forecasting.recipe import read_recipe
-from asphalt_nscd.forecasting.void_slopes import compare_voids
+from forecast.mixes import bands, best_map, binder_shift, read_pairs
+from forecast.voids import compare_voids
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +64,7 @@ def test_no_map_fits_warm_and_hot_mixes(pairs):
     """At equal modulus of the binder the mixes differ: the best map of the hot ones misses the warm ones."""
 
     def worst(of, on):
-        from asphalt_nscd.forecasting.mixes import _any_map
+        from forecast.mixes import _any_map
 
         weights = best_map([pair for pair in pairs if pair.name[0] == of])
         return max(
@@ -138,7 +138,7 @@ def campaign(folder, slope):
 
 def test_cost_of_air_is_measured_within_mixes(tmp_path, networks, recipe):
     campaign(tmp_path, -6.0)
-    table = compare_voids(tmp_path, replace(recipe, voids=0.07), networks, lambda *_: None)
+    table = compare_voids(tmp_path, replace(recipe, voids=0.07), networks)
     one, pooled = table.itertuples()
     for row in (one, pooled):
         assert row.measured_percent == pytest.approx(-6.0, abs=1e-9)
@@ -158,7 +158,7 @@ def test_pooled_scatter_is_that_of_specimens(tmp_path, networks, recipe):
             path = tmp_path / f"M{number}_RH.csv"
             first = table if number == 2 else pd.read_csv(path).query("frequency_Hz == 1")
             pd.concat([first.assign(frequency_Hz=10**k) for k in range(conditions)]).to_csv(path, index=False)
-        errors.append(compare_voids(tmp_path, recipe, networks, lambda *_: None).iloc[-1])
+        errors.append(compare_voids(tmp_path, recipe, networks).iloc[-1])
     assert errors[0].specimens == errors[1].specimens == 12
     assert errors[1].standard_error_percent == pytest.approx(errors[0].standard_error_percent, rel=1e-9)
     # the one deviation: -ln(1.1) a / sum of a^2 in the slope
@@ -172,4 +172,4 @@ def test_a_specimen_without_air_voids_is_named(tmp_path, networks, recipe):
         tmp_path / "volumetrics.csv", index=False
     )
     with pytest.raises(InputError, match="no row for specimen B of M1_RH"):
-        compare_voids(tmp_path, recipe, networks, lambda *_: None)
+        compare_voids(tmp_path, recipe, networks)

@@ -1,55 +1,27 @@
-"""Blind campaign: recipes with one wrong input, drawn by two models that are not the forecast's, and what it names.
-
-    PYTHONPATH=trials python -m wrong_recipes --packings FOLDER --output TABLE
+"""Recipes with one wrong input, drawn by two models that are not the forecast's, and what it names.
 
 Truth: the differential scheme (McLaughlin 1977) for each level and the air voids, or Hirsch's regression; dry contacts
 by Walton (1987) beside it. Aggregate and pressure of the truth are drawn anew for each mix, and so is scatter.
 """
 
-from __future__ import annotations
-
-import argparse
+import sys
 from collections.abc import Callable
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.forecasting import wrong_inputs
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.forecasting.forecast import Networks, kept_in
-from asphalt_nscd.forecasting.levels import levels_of
 from asphalt_nscd.forecasting.recipe import Recipe, read_recipe
-from asphalt_nscd.forecasting.rivals import BINDER_BULK, hirsch
+from asphalt_nscd.forecasting.rivals import hirsch
+from forecast import wrong_inputs
+from forecast.differential import differential
 
-STEPS = 60  # of the differential scheme
+DRAWS = 50  # of each wrong input and size
 TIMES = (0.0, 1.0, 2.0, 3.0)  # the limit
 RELAXED = (20e6, 60e6)  # Pa, Young's modulus of the skeleton, as in published mixes
 COORDINATION, PACKED = 4.5, 0.6  # of the dry skeleton
-
-
-def differential(recipe: Recipe) -> np.ndarray:
-    """E* [Pa]: grains of each level, then voids, added bit by bit to what is there."""
-    young, stone = recipe.binder_modulus(), recipe.aggregate
-    bulk = np.full(young.shape, BINDER_BULK, complex)
-    shear = 3.0 * bulk * young / (9.0 * bulk - young)
-    parts = [(level.fraction, stone.bulk, stone.shear) for level in levels_of(recipe)]
-    for fraction, own_bulk, own_shear in [*parts, (recipe.voids, 0.0, 0.0)]:
-        step = -np.log(1.0 - fraction) / STEPS
-        for _ in range(STEPS):
-            around = shear * (9.0 * bulk + 8.0 * shear) / (6.0 * (bulk + 2.0 * shear))
-            soft = (
-                1.0 / bulk
-            )  # in compliance, since a void in a nearly incompressible matrix is a stiff equation
-            soft -= (
-                step
-                * (own_bulk * soft - 1.0)
-                * (1.0 + 4.0 / 3.0 * shear * soft)
-                / (own_bulk + 4.0 / 3.0 * shear)
-            )
-            shear = shear + step * (own_shear - shear) * (shear + around) / (own_shear + around)
-            bulk = 1.0 / soft
-    return 9.0 * bulk * shear / (3.0 * bulk + shear)
 
 
 def skeleton(recipe: Recipe, pressure: float) -> float:
@@ -90,7 +62,7 @@ def measured(
     return ratio, known, weighed + off(2) * [wrong_inputs.DENSITY, wrong_inputs.MAXIMUM]
 
 
-def campaign(recipe: Recipe, changes: wrong_inputs.Changes, draws: int) -> pd.DataFrame:
+def campaign(recipe: Recipe, changes: wrong_inputs.Changes, draws: int = DRAWS) -> pd.DataFrame:
     """A row for each truth, evidence, wrong input and size: how often it was named, and how."""
     rows = []
     for weighed in (False, True):
@@ -126,14 +98,8 @@ def campaign(recipe: Recipe, changes: wrong_inputs.Changes, draws: int) -> pd.Da
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--recipe", type=Path, default=Path("data/forecast/recipe.yaml"))
-    parser.add_argument("--packings", type=Path, required=True)
-    parser.add_argument("--output", type=Path, required=True, help="table of rates")
-    parser.add_argument("--draws", type=int, default=50)
-    asked = parser.parse_args()
-    stated = read_recipe(asked.recipe)
-    rates = campaign(stated, wrong_inputs.changes_of(stated, Networks(kept_in(asked.packings))), asked.draws)
-    asked.output.parent.mkdir(parents=True, exist_ok=True)
-    rates.to_csv(asked.output, index=False)
+    sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+    stated, packings = read_recipe(snakemake.input.recipe), kept_in(snakemake.input.packings)
+    rates = campaign(stated, wrong_inputs.changes_of(stated, Networks(packings)))
+    write_table(snakemake.output[0], rates)
     print(rates.to_string(index=False))
