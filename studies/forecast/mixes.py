@@ -23,11 +23,18 @@ from asphalt_nscd.forecasting.recipe import UNSTATED, Recipe, read_recipe
 from asphalt_nscd.forecasting.rivals import RIVALS
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius
+from forecast.differential import FINE, RIGDEN, differential
 
 OTHER_CUTS = {  # m: what else might be done
     "stones from 1 mm": (0.063e-3, 1e-3),
     "stones from 4 mm": (0.063e-3, 4e-3),
     "two sands": (0.063e-3, 0.5e-3, 2e-3),
+}
+PRINTED = Solid(95e9, 0.17)
+"""What the documentation of MeanFieldHom.jl gives the aggregate (docs/src/applications/bituminous.md)."""
+DIFFERENTIAL: dict[str, Callable[[Recipe], np.ndarray]] = {
+    "differential": partial(differential, steps=FINE),
+    "differential, filler by Rigden": partial(differential, steps=FINE, rigden=RIGDEN),
 }
 CALIBRATED_ON, SHIFTED_ON, SHIFTED = "H0", "W0", "W"  # the shift is that of the warm mixes' binder
 PRESSURES = (0.1e3, 0.3e3, 1e3, 3e3, 10e3)  # Pa
@@ -109,12 +116,19 @@ def compare(pairs: list[Pair], networks: Networks) -> tuple[pd.DataFrame, pd.Dat
     """
     recipe, settings = pairs[0].recipe, Settings()
     made: dict[str, tuple[str, int, Callable[[Pair], np.ndarray]]] = {}
-    for name, rival in RIVALS.items():
+    for name, rival in {**RIVALS, **DIFFERENTIAL}.items():
         made[name] = "rival", 0, partial(_rival, rival)
     for name, chosen in rungs(settings):
         levels = networks.chain(recipe, chosen, 1)
         made[name] = "forecast", 0, partial(_forecast, levels, recipe.aggregate)
-    calibrated_on = next(pair for pair in pairs if pair.name == CALIBRATED_ON)
+    levels = networks.chain(replace(recipe, aggregate=PRINTED), settings, 1)
+    made[f"aggregate {PRINTED.modulus / 1e9:.0f} GPa, as the source prints"] = (
+        "forecast",
+        0,
+        partial(_forecast, levels, PRINTED),
+    )
+    by_name = {pair.name: pair for pair in pairs}
+    calibrated_on, shifted_on = by_name[CALIBRATED_ON], by_name[SHIFTED_ON]
     fitted, levels = calibrated(calibrated_on, settings, networks)
     made[
         f"aggregate {fitted.recipe.aggregate.modulus / 1e9:.0f} GPa and skeleton "
@@ -125,11 +139,23 @@ def compare(pairs: list[Pair], networks: Networks) -> tuple[pd.DataFrame, pd.Dat
     made[
         f"binder {_stiffer(hot)} and skeleton {fitted.settings.skeleton_pressure / 1e3:.2g} kPa, set on {CALIBRATED_ON}"
     ] = "calibrated", 2, partial(_shifted, levels, stone, hot)
-    warm = binder_shift(next(pair for pair in pairs if pair.name == SHIFTED_ON), levels, recipe)
+    warm = binder_shift(shifted_on, partial(modulus_of, levels, stone))
     made[f"and {SHIFTED} binders {_stiffer(warm)} instead, set on {SHIFTED_ON}"] = (
         "calibrated",
         3,
         lambda pair: _shifted(levels, stone, warm if pair.name.startswith(SHIFTED) else hot, pair),
+    )
+    own = measured_map(calibrated_on)
+    made[f"no particle: measured map of binder to mix of {CALIBRATED_ON}"] = (
+        "measured",
+        0,
+        lambda pair: own(pair.binder()),
+    )
+    later = binder_shift(shifted_on, own)
+    made[f"that map, and {SHIFTED} binders {_stiffer(later)}, set on {SHIFTED_ON}"] = (
+        "measured",
+        1,
+        lambda pair: own(pair.binder(later if pair.name.startswith(SHIFTED) else 0.0)),
     )
     best = best_map(pairs)
     made["best map of binder to mix, fitted to all"] = (
@@ -230,17 +256,26 @@ def calibrated(
     return Calibrated(recipe, chosen), networks.chain(recipe, chosen, 1)
 
 
-def binder_shift(pair: Pair, levels: tuple[LevelResult, ...], recipe: Recipe) -> float:
-    """Decades, -3 to 3, by which to raise the binder's frequencies so that the forecast meets one mix best.
+def measured_map(pair: Pair) -> Callable[[np.ndarray], np.ndarray]:
+    """E* of a mix [Pa] where its binder has the |E*| given [Pa], as both were measured: it knows of no particle."""
+    omega = np.geomspace(1e-12, 1e12, 4000)  # rad/s, beyond all binders of the table
+    temperature = pair.recipe.temperature[0]
+    binder = np.log(np.abs(pair.recipe.binder.complex_modulus(omega, temperature)))
+    mix = np.log(pair.mix.complex_modulus(omega, temperature))
+    return lambda modulus: np.exp(np.interp(np.log(np.abs(modulus)), binder, mix))
 
-    By least squares of ln E*; `levels` from fine to coarse.
+
+def binder_shift(pair: Pair, made: Callable[[np.ndarray], np.ndarray]) -> float:
+    """Decades, -3 to 3, by which to raise the binder's frequencies so that a mix is met best; least squares of ln E*.
+
+    `made` gives E* of the mix (n,) [Pa] for that of the binder (n,) [Pa].
     """
 
-    def off(decades: float) -> float:
-        found = np.log(modulus_of(levels, recipe.aggregate, pair.binder(decades)) / pair.measured)
-        return float((np.abs(found) ** 2).sum())
+    def misfit(decades: float) -> float:
+        off = np.log(made(pair.binder(decades)) / pair.measured)
+        return float((np.abs(off) ** 2).sum())
 
-    return float(minimize_scalar(off, bounds=(-3.0, 3.0), method="bounded").x)
+    return float(minimize_scalar(misfit, bounds=(-3.0, 3.0), method="bounded").x)
 
 
 def best_map(pairs: list[Pair]) -> np.ndarray:

@@ -102,6 +102,31 @@ rule forecast_voids:
         "../../studies/forecast/voids.py"
 
 
+rule forecast_blind:
+    # Mixes on which no rule of the forecast was chosen. Only on request.
+    input:
+        recipe=RECIPE,
+        recipes="data/mixes50/recipes.csv",
+        moduli="data/mixes50/modulus.csv",
+        seen="data/mixes50/seen.csv",
+        packings="results/forecast/packings",
+        code=studied("blind"),
+    output:
+        points="results/forecast/blind.csv",
+        mixes="results/forecast/blind_mixes.csv",
+        overall="results/forecast/blind_overall.csv",
+    conda:
+        ENVIRONMENT
+    log:
+        "results/forecast/logs/blind.log",
+    benchmark:
+        "<results>/benchmarks/forecast_blind.tsv"
+    message:
+        "Hold the forecast against mixes that it has not seen"
+    script:
+        "../../studies/forecast/blind.py"
+
+
 rule forecast_paper:
     # The paper's mix from its grading and the grade of its binder, beside its Table 3.
     input:

@@ -1,6 +1,7 @@
 """The forecast held against measurements: mixes drawn from the forecast itself are met, and one fault is found."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -10,7 +11,7 @@ from scipy.optimize import minimize_scalar
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.forecast import Settings, forecast, modulus_of
 from asphalt_nscd.forecasting.recipe import read_recipe
-from forecast.mixes import bands, best_map, binder_shift, read_pairs
+from forecast.mixes import bands, best_map, binder_shift, measured_map, read_pairs
 from forecast.voids import compare_voids
 
 
@@ -87,7 +88,14 @@ def test_a_binder_of_another_temperature_is_found(pairs, networks, decades):
         measured = modulus_of(levels, pair.recipe.aggregate, pair.binder(decades))
 
     drawn = Drawn(pair.name, pair.recipe, pair.mix)
-    assert binder_shift(drawn, levels, pair.recipe) == pytest.approx(decades, abs=1e-3)
+    made = partial(modulus_of, levels, pair.recipe.aggregate)
+    assert binder_shift(drawn, made) == pytest.approx(decades, abs=1e-3)
+
+
+def test_the_map_of_a_mix_gives_that_mix(pairs):
+    own = measured_map(pairs[0])
+    assert np.abs(np.log(own(pairs[0].binder()) / pairs[0].measured)).max() < 1e-3
+    assert binder_shift(pairs[0], own) == pytest.approx(0.0, abs=1e-3)
 
 
 def test_a_band_takes_the_models_error_from_the_other_mixes(pairs, networks):
