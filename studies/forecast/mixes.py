@@ -24,12 +24,8 @@ from asphalt_nscd.forecasting.rivals import RIVALS
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius
 from forecast.differential import FINE, RIGDEN, differential
+from forecast.packings import OTHER_CUTS
 
-OTHER_CUTS = {  # m: what else might be done
-    "stones from 1 mm": (0.063e-3, 1e-3),
-    "stones from 4 mm": (0.063e-3, 4e-3),
-    "two sands": (0.063e-3, 0.5e-3, 2e-3),
-}
 PRINTED = Solid(95e9, 0.17)
 """What the documentation of MeanFieldHom.jl gives the aggregate (docs/src/applications/bituminous.md)."""
 DIFFERENTIAL: dict[str, Callable[[Recipe], np.ndarray]] = {

@@ -6,8 +6,12 @@ from pathlib import Path
 from asphalt_nscd.forecasting.forecast import kept_in
 from asphalt_nscd.forecasting.levels import levels_of
 from asphalt_nscd.forecasting.recipe import read_recipe
-from forecast.mixes import OTHER_CUTS
 
+OTHER_CUTS = {  # m: what else might be done
+    "stones from 1 mm": (0.063e-3, 1e-3),
+    "stones from 4 mm": (0.063e-3, 4e-3),
+    "two sands": (0.063e-3, 0.5e-3, 2e-3),
+}
 SEEDS = (1, 2)  # as `asphalt-nscd forecast` takes them; of other cuts the first alone
 
 
