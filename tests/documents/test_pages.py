@@ -85,6 +85,7 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
         ("blind", "blind/summary"),
         ("blind_real", "blind/real_summary"),
         ("wrong_recipes", "forecast/wrong_recipes"),
+        ("forecast_blind", "forecast/blind_overall"),
         ("benchmark", "benchmark/beside"),
         ("growth", "benchmark/growth"),
     ],

@@ -1,3 +1,4 @@
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -144,6 +145,22 @@ def test_stiffer_stone_and_drier_mixes_are_stiffer(found):
 
 def test_forecast_lies_above_the_mean_field_of_apart_grains(found, recipe):
     assert (abs(found.modulus) > abs(mori_tanaka(recipe))).all()
+
+
+@pytest.mark.parametrize(("binder", "told"), [(6.3, "0.2 % more"), (6.5, "0.2 % less"), (5.4, None)])
+def test_an_edge_of_the_rules_is_told_with_what_a_little_binder_changes(content, networks, binder, told):
+    """Stones fill half of the mix at 6.4 % of binder; the lattice holds fewer grains than the mortar."""
+    made = forecast(recipe_of(content | {"binder_percent_by_mass": binder}), networks, seeds=(1,))
+    switch = [text for text in made.caution.split(". ") if "they are taken to touch" in text]
+    assert re.search(
+        r"grains of the mortar fill 5\S+ % of it, of which the forecast sees the 5", made.caution
+    )
+    assert len(switch) == (told is not None)
+    if told:
+        assert f"The grains of the mix fill {100 * made.levels[-1].level.fraction:.1f} % of it" in switch[0]
+        before, after = re.search(r"from (\S+) to (\S+) MPa", switch[0]).groups()
+        assert (float(before) > 1.2 * float(after)) == (binder == 6.3)
+        assert f"{told} binder" in switch[0] and summary(made)["caution"] == made.caution
 
 
 def test_law_of_the_mix_follows_the_forecast(found, tmp_path):

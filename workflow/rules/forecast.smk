@@ -223,6 +223,7 @@ rule publish_forecast:
         voids="results/forecast/voids.csv",
         paper="results/forecast/paper_mix.csv",
         wrong="results/forecast/wrong_recipes.csv",
+        blind=expand("results/forecast/blind{part}.csv", part=["", "_mixes", "_overall"]),
         figure="results/forecast/figures/fig_forecast.png",
         provenance="results/forecast/provenance.json",
         code=code("publish"),
@@ -231,4 +232,4 @@ rule publish_forecast:
     message:
         "Copy the table of forecasts and its figure, and fill the table of docs/forecast.md"
     shell:
-        "asphalt-nscd publish {input.overall} {input.errors} {input.bands} {input.voids} {input.paper} {input.wrong} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block wrong_recipes={input.wrong}"
+        "asphalt-nscd publish {input.overall} {input.errors} {input.bands} {input.voids} {input.paper} {input.wrong} {input.blind} {input.figure} {input.provenance} --root results/forecast --output results/published/forecast --document docs --block forecast={input.overall} --block wrong_recipes={input.wrong} --block forecast_blind={input.blind[2]}"

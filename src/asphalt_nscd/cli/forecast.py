@@ -42,6 +42,8 @@ def command(recipe: Path, output: Path, packings: Path | None, seeds: int, page:
         names.append(write_page(found, output).name)
     frame = points(found)
     click.echo(f"{asked.name}: forecast of {len(frame)} points, nothing fitted. {asked.caveat}".rstrip())
+    if found.caution:
+        click.echo(f"warning: {found.caution}", err=True)
     shown = (
         frame[[*frame.columns[:6]]].round(1).assign(frequency_Hz=frame["frequency_Hz"].map("{:.3g}".format))
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.film import Solid
-from asphalt_nscd.forecasting.levels import CUTS, Level, film_thickness, levels_of
+from asphalt_nscd.forecasting.levels import CUTS, TOUCHING, Level, film_thickness, levels_of
 from asphalt_nscd.forecasting.network import Contents, Physics, contents_of, level_map
 from asphalt_nscd.forecasting.packing import LevelPacking, packing_of
 from asphalt_nscd.forecasting.recipe import Recipe
@@ -43,6 +44,9 @@ class Settings:
 # Factor by which each stated number may be wrong, about two standard deviations; of air voids the difference.
 DOUBTS: dict[str, float] = {"film_factor": 2.0, "skeleton_pressure": 10.0, "aggregate": 1.25, "voids": 0.005}
 
+BINDER_STEP = 0.002
+"""Of the mass of the mix: so much binder nobody vouches for, and an edge of the rules that is nearer is told."""
+
 MODEL = complex(np.log(1.42), np.radians(7.1))
 """What the model itself gets wrong: root mean square of ln|E*| and of the phase [rad] over six mixes."""
 
@@ -51,12 +55,14 @@ MODEL = complex(np.log(1.42), np.radians(7.1))
 class LevelResult:
     """A level of a forecast, its packing, and its map from the modulus of its matrix to its own.
 
-    `grains` counts those in the prism that is pulled; `matrix_bulk` is K of its matrix [Pa].
+    `grains` counts those in the prism that is pulled, `densest` is the fraction that they fill unshrunk; `matrix_bulk`
+    is K of its matrix [Pa].
     """
 
     level: Level
     packing: LevelPacking
     grains: int
+    densest: float
     map: StaticMap
     matrix_bulk: float
 
@@ -66,7 +72,8 @@ class Forecast:
     """E* (n,) [Pa] of the mix at the points of its recipe, and how it came about.
 
     `packed` holds the levels for each seed; `deviation` (n,) the change of ln E* by each doubt, its real part of |E*|
-    and its imaginary part of the phase; `packing` in it is half the range over the seeds.
+    and its imaginary part of the phase; `packing` in it is half the range over the seeds. `caution` says which rule the
+    recipe stands at the edge of; empty where none is near.
     """
 
     recipe: Recipe
@@ -74,6 +81,7 @@ class Forecast:
     packed: tuple[tuple[LevelResult, ...], ...]
     modulus: np.ndarray
     deviation: dict[str, np.ndarray]
+    caution: str
 
     @property
     def levels(self) -> tuple[LevelResult, ...]:
@@ -127,7 +135,8 @@ class Networks:
             )
             if key not in self._maps:
                 self._maps[key] = level_map(contents, level, recipe.aggregate, bulk, physics)
-            results.append(LevelResult(level, packing, contents.prism.radius.size, self._maps[key], bulk))
+            grains, densest = contents.prism.radius.size, contents.solid_fraction
+            results.append(LevelResult(level, packing, grains, densest, self._maps[key], bulk))
             # Reuss, to which the lower bound of Hashin & Shtrikman falls where the matrix flows.
             bulk = 1.0 / (level.fraction / recipe.aggregate.bulk + (1.0 - level.fraction) / bulk)
         return tuple(results)
@@ -163,7 +172,8 @@ def forecast(
         levels = networks.chain(doubted, chosen, seeds[0])
         deviation[name] = np.log(modulus_of(levels, doubted.aggregate, doubted.binder_modulus())) - logs[0]
     progress("networks", stages, stages)
-    return Forecast(recipe, settings, tuple(made), np.exp(logs.mean(axis=0)), deviation)
+    caution = _caution(recipe, settings, networks, made[0], seeds[0])
+    return Forecast(recipe, settings, tuple(made), np.exp(logs.mean(axis=0)), deviation, caution)
 
 
 def physics_of(recipe: Recipe, settings: Settings, level: Level, last: bool) -> Physics:
@@ -208,6 +218,44 @@ def _doubted(recipe: Recipe, settings: Settings) -> dict[str, tuple[Recipe, Sett
     unused = set() if settings.touching else {"film_factor", "skeleton_pressure"}
     unused |= set() if settings.voids else {"voids"}
     return {name: pair for name, pair in changed.items() if name not in unused}
+
+
+def _caution(
+    recipe: Recipe, settings: Settings, networks: Networks, levels: tuple[LevelResult, ...], seed: int
+) -> str:
+    """A sentence for each level BINDER_STEP from TOUCHING, or fuller than its packing, with what the step changes."""
+    sentences = []
+    for word, step in (("more", BINDER_STEP), ("less", -BINDER_STEP)):
+        other = replace(recipe, binder_share=recipe.binder_share + step)
+        with suppress(InputError):  # less binder may leave a level that no packing holds
+            for there, result in zip(levels_of(other, settings.cuts), levels, strict=True):
+                level = result.level
+                if settings.touching and there.touching != level.touching:
+                    edge = f"and from {100 * TOUCHING:.0f} % on they are taken to touch: "
+                elif step > 0.0 and level.fraction > result.densest:
+                    edge = f"of which the forecast sees the {100 * result.densest:.1f} % of their packing: "
+                else:
+                    continue
+                moved = networks.chain(other, settings, seed)
+                sentences.append(
+                    f"The grains of the {level.name} fill {100 * level.fraction:.1f} % of it, {edge}"
+                    f"{100 * BINDER_STEP:g} % {word} binder {_change(recipe, levels, moved)}."
+                )
+    return " ".join(sentences)
+
+
+def _change(recipe: Recipe, levels: tuple[LevelResult, ...], moved: tuple[LevelResult, ...]) -> str:
+    """From |E*| and phase of `levels` to those of `moved`, where |E*| changes most."""
+    before, after = (
+        modulus_of(chain, recipe.aggregate, recipe.binder_modulus()) for chain in (levels, moved)
+    )
+    k = int(np.abs(np.log(np.abs(after / before))).argmax())
+    size = [float(f"{1e-6 * abs(modulus[k]):.3g}") for modulus in (before, after)]
+    turned = [np.degrees(np.angle(modulus[k])) for modulus in (before, after)]
+    return (
+        f"changes |E*| from {size[0]:g} to {size[1]:g} MPa and the phase from {turned[0]:.0f} to {turned[1]:.0f}° "
+        f"at {recipe.temperature[k]:g} °C and {recipe.frequency[k]:.2g} Hz"
+    )
 
 
 def _half_range(logs: np.ndarray) -> np.ndarray:

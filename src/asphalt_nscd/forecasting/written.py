@@ -138,6 +138,7 @@ def summary(found: Forecast) -> dict[str, Any]:
         "relaxed_modulus_MPa": 1e-6 * recipe.aggregate.modulus * found.levels[-1].map.constant,
         "levels": levels,
         "doubts": doubts,
+        "caution": found.caution,
         "largest_doubt": max(doubts, key=lambda name: doubts[name]["E_percent"]),
         "provenance": provenance(),
     }

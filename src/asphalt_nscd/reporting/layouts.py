@@ -74,6 +74,31 @@ class Rungs:
         return f"{self.sentence}\n\n" + _grid(shown, figures=3)
 
 
+@dataclass(frozen=True)
+class Crossed:
+    """One quantity of a long table: a row for each value of one column, and a column for each value of another."""
+
+    row: str
+    column: str
+    quantity: str
+    heading: str
+    names: Mapping[str, str]  # of the columns that are shown
+    sentence: str
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Those that the table must have."""
+        return self.row, self.column, self.quantity
+
+    def markdown(self, table: pd.DataFrame) -> str:
+        """The table for a page of the documents, rows in the order of the long one."""
+        wide = table.pivot(index=self.row, columns=self.column, values=self.quantity).loc[
+            table[self.row].unique()
+        ]
+        shown = wide[[*self.names]].rename(columns=dict(self.names)).rename_axis(self.heading).reset_index()
+        return f"{self.sentence}\n\n" + _grid(shown, figures=3)
+
+
 def shown(block: str, table: pd.DataFrame) -> str:
     """The published table of a block in Markdown, in lines of at most 120 characters."""
     parts = BLOCKS.get(block, [Layout({str(name): str(name) for name in table.columns})])
@@ -93,7 +118,14 @@ _CRITERIA = {
     "interval_percent": "interval",
     "met": "met",
 }
-BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
+_MODELS = {
+    "forecast": "forecast",
+    "hirsch": "Hirsch",
+    "witczak": "Witczak 1-40D",
+    "differential": "differential scheme",
+    "witczak_its_own_binder": "Witczak, its own binder",
+}
+BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
     "verification": [Layout({name: name for name in ("theme", "passed")})],
     "faults": [Layout({name: name for name in ("kind", "faults", "passed")})],
     "ladder": [
@@ -285,6 +317,30 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs]] = {
                 ]
             },
             figures=3,
+        ),
+    ],
+    "forecast_blind": [
+        Layout(
+            {
+                "model": "model",
+                "factor": "factor of modulus",
+                "bias": "bias",
+                "phase_deg": "phase, °",
+                "phase_bias_deg": "its bias, °",
+                "mixes_nearer_than_hirsch": "mixes nearer than Hirsch",
+            },
+            # Each temperature is below, and its phases are in blind_overall.csv.
+            where={"temperature_C": ("4.4 to 54.4",)},
+            figures=3,
+            shorter=_MODELS,
+        ),
+        Crossed(
+            "temperature_C",
+            "model",
+            "factor",
+            "T, °C",
+            _MODELS,
+            "Factor of modulus at each temperature:",
         ),
     ],
     "wrong_recipes": [

@@ -21,7 +21,7 @@ SHIFTED = "set on W0"  # in the name of the forecast whose warm mixes have a bin
 
 @style.journal
 def draw(points: list[Path]) -> Figure:
-    """Draw the table of `forecast-mixes`: |E*| above, phase below, a column for each mix."""
+    """Draw points.csv of the rule `forecast_mixes`: |E*| above, phase below, a column for each mix."""
     frame = pd.read_csv(points[0])
     mixes = list(dict.fromkeys(frame["mix"]))
     figure, axes = style.new_figure(style.WIDE, 88.0, rows=2, columns=len(mixes), sharex=True, sharey="row")

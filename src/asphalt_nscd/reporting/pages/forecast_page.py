@@ -38,6 +38,7 @@ def write_page(found: Forecast, folder: Path) -> Path:
             title=f"Forecast of {found.recipe.name}",
             style=STYLE,
             answer=_answer(found, said),
+            caution=found.caution,
             curves=_png(forecast_panels.curves(found, points, written.rival_points(found))),
             levels=_png(forecast_panels.levels(found)),
             doubts=_png(forecast_panels.doubts(list(doubts), list(doubts.values()))),

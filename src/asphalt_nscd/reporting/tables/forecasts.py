@@ -10,6 +10,6 @@ import pandas as pd
 def make(overall: list[Path]) -> pd.DataFrame:
     """One row for each forecast: parameters that were fitted, and its errors over all mixes and for each.
 
-    overall: table of `asphalt-nscd forecast-mixes`.
+    overall: overall.csv of the rule `forecast_mixes`.
     """
     return pd.read_csv(overall[0])
