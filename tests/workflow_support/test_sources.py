@@ -68,6 +68,18 @@ def test_package_counts_where_it_is_named(package):
     assert "plotting.py" in names(package, "core")
 
 
+def test_a_script_counts_what_it_imports_from_its_own_folder_and_from_the_package(package, tmp_path):
+    folder = tmp_path / "studies/mixes"
+    folder.mkdir(parents=True)
+    (folder / "script.py").write_text("from mixes.helper import help\nfrom other import thing\n")
+    (folder / "helper.py").write_text("from asphalt_nscd.core import solver\n")
+    found = sources.source_files(folder / "script.py")
+    assert {path.name for path in found} == {"script.py", "helper.py", "solver.py", "kernel.py", "errors.py"}
+    before = sources.stamp(tmp_path / "stamps", "script", found).read_text()
+    (folder / "helper.py").write_text("from asphalt_nscd.core import solver\n\nhelp = 1\n")
+    assert sources.stamp(tmp_path / "stamps", "script", found).read_text() != before
+
+
 def test_unknown_module_is_refused(package):
     with pytest.raises(ValueError, match="no module asphalt_nscd.setp"):
         sources.source_files("setp")
