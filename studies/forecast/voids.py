@@ -136,5 +136,6 @@ def _specimens(folder: Path) -> pd.DataFrame:
 
 if __name__ == "__main__":
     sys.stdout = sys.stderr = open(snakemake.log[0], "w", encoding="utf-8")
+    campaign = Path(snakemake.input.campaign[0]).parent
     recipe, packings = read_recipe(snakemake.input.recipe), kept_in(snakemake.input.packings)
-    write_table(snakemake.output[0], compare_voids(snakemake.params.campaign, recipe, Networks(packings)))
+    write_table(snakemake.output[0], compare_voids(campaign, recipe, Networks(packings)))

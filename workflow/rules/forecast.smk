@@ -88,8 +88,6 @@ rule forecast_voids:
         code=studied("voids"),
     output:
         "results/forecast/voids.csv",
-    params:
-        campaign="data/ncat",
     conda:
         ENVIRONMENT
     log:
