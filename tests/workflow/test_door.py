@@ -45,7 +45,13 @@ rule both:
 # What `snakemake --lint` may find in which files and rules, and why it stays
 ACCEPTED = {
     "Environment variable": {"common", "forecast"},  # set there, not asked for
-    "Mixed rules and functions": {"data", "bending", "report", "mapping", "forecast"},  # of one rule or file, beside it
+    "Mixed rules and functions": {
+        "data",
+        "bending",
+        "report",
+        "mapping",
+        "forecast",
+    },  # of one rule or file, beside it
     "No log directive": {"publish", "first_page"},  # they say on the terminal what they copied
     "Param": {"publish", "first_page"},  # the folder that is published begins like an output
     "Path composition": {"benchmark", "film", "mapping", "rigs"},  # the common start of measuring commands
