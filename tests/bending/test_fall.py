@@ -44,7 +44,7 @@ def test_it_starts_at_rest_over_the_floor_in_two_pieces(small):
 def test_what_a_fall_sets_free_is_what_named_parts_take(small):
     """In free fall 20 mm set m g h free and all is motion; on the floor, impacts and friction have taken it.
 
-    What implicit Euler takes is less than one percent and falls with the step.
+    What the scheme takes is less than a hundredth of that, and each part is computed for itself.
     """
     free = fell(small, QUICK_LAW, Fall(tilt=60.0, duration=0.04, frames=2), Bonds())[1]
     assert free["energy_J"] == pytest.approx(small.geometry.mass * 9.81**2 * 0.04 * 0.0402 / 2, rel=1e-9)
@@ -59,8 +59,7 @@ def test_what_a_fall_sets_free_is_what_named_parts_take(small):
         assert one["impact_percent"] > 50.0 and one["friction_percent"] > 0.0
         named = [one[f"{name}_percent"] for name in ("kinetic", "springs", "dashpots", "friction", "impact")]
         assert min(named) >= 0.0 and sum(named) == pytest.approx(100.0, abs=1.5)
-    scheme = [abs(one["numerical_percent"]) + abs(one["turning_percent"]) for one in taken]
-    assert scheme[1] < 0.8 * scheme[0]
+        assert abs(one["numerical_percent"]) < 0.5
 
 
 @pytest.mark.slow

@@ -64,6 +64,16 @@ def test_of_two_bonds_side_by_side_the_shorter_is_lost_first():
     assert course.life(0.3) == pytest.approx(16e6 * 0.4, rel=5e-3) and course.lost[-1] == 1
 
 
+def test_a_bond_that_slides_tires_as_one_that_opens():
+    """Moved askew, by 0.6 along its normal and 0.8 across it, a bond lives as long as one moved along its normal."""
+    straight = along_a_line([[0, 1], [1, 0]], [1.0, np.inf])
+    rows = straight.operator.toarray()
+    rows[:3, 1] = [0.6, 0.0, 0.8]
+    askew = replace(straight, operator=sparse.csr_matrix(rows))
+    lives = [tire(system, np.ones(2), LAW.rate, 1e-3, 0.5, FINE).life() for system in (straight, askew)]
+    assert lives == pytest.approx([0.5e6, 0.5e6], rel=2e-3)
+
+
 def test_largest_strain_is_that_of_the_beam():
     height = np.linspace(0.0, PAPER.h, 100_001)
     width = PAPER.B - (PAPER.B - PAPER.b) * height / PAPER.h

@@ -28,6 +28,8 @@ from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.stepping.scheme import History
 
 Form = Callable[[np.ndarray, np.ndarray], float]
+Stresses = tuple[np.ndarray, np.ndarray]
+"""Of bonds: sigma [Pa] and the displacements (k, ...) of Kelvin elements [m]."""
 
 
 @dataclass
@@ -35,9 +37,9 @@ class Energies:
     """All in J: stores at the present, the rest summed from the beginning.
 
     Stores: `kinetic`, `springs` of the bonds, `load` (its potential), `devices` (clamp, spring and mass at the head).
-    Sums: work of the `actuator`; dissipated in the `dashpots` of the bonds, by `friction` (tangential forces of
-    contacts and the slider at the head), by `impact` (normal forces of contacts, where gaps close), and by the scheme
-    (`numerical`); `fracture` is what bonds stored when they broke.
+    Sums: work of the `actuator`, or what set a world in motion; dissipated in the `dashpots` of the bonds, by
+    `friction` (tangential forces of contacts and the slider at the head), by `impact` (normal forces of contacts, where
+    gaps close), and by the scheme (`numerical`); `fracture` is what bonds stored when they broke.
     """
 
     actuator: float = 0.0
@@ -95,16 +97,8 @@ class EnergyAccount:
             sums.numerical += scale * taken[name] - (new[name] - old[name])
             setattr(sums, name, new[name])
         sums.actuator += scale * force * (after.actuator - base.actuator)
-        sigma = after.values["sigma"]
-        sums.dashpots += dt * of.strain(sigma / self.law.dashpot, sigma)
-        for viscosity, now, then in zip(
-            np.atleast_1d(self.law.kelvin_dashpots),
-            after.values["kelvin"],
-            base.values["kelvin"],
-            strict=True,
-        ):
-            rate = (now - then) / stepper.dt
-            sums.dashpots += dt * of.strain(viscosity * rate, rate)
+        rate = (after.values["kelvin"] - base.values["kelvin"]) / stepper.dt
+        sums.dashpots += dt * power_of_dashpots(self.law, of.strain, after.values["sigma"], rate)
         sums.friction += dt * stepper.devices.guide_friction * abs(after.values["velocity"][of.head])
         contact = getattr(stepper, "contact", None)
         if contact is not None:
@@ -119,11 +113,7 @@ class EnergyAccount:
         """factor times the bilinear form of each store at x and y; the linear one of the load at y."""
         clamp, spring, _, mass = stepper.devices.of_head
         one, other = x.values, y.values
-        springs = of.strain(one["sigma"] / self.law.spring, other["sigma"])
-        for modulus, a, b in zip(
-            np.atleast_1d(self.law.kelvin_springs), one["kelvin"], other["kelvin"], strict=True
-        ):
-            springs += of.strain(modulus * a, b)
+        stresses = [(values["sigma"], values["kelvin"]) for values in (one, other)]
         places = [(h.values["displacement"][of.head], h.values["velocity"][of.head]) for h in (x, y)]
         (at, speed), (at_other, speed_other) = places
         devices = spring * at * at_other + mass * speed * speed_other
@@ -131,10 +121,26 @@ class EnergyAccount:
             devices += (x.actuator - at) * (y.actuator - at_other) / clamp
         return {
             "kinetic": factor * of.inertia(one["velocity"], other["velocity"]),
-            "springs": factor * springs,
+            "springs": factor * form_of_springs(self.law, of.strain, *stresses),
             "load": -float(of.load @ other["displacement"]),
             "devices": factor * devices,
         }
+
+
+def form_of_springs(law: AnyLaw, strain: Form, one: Stresses, other: Stresses) -> float:
+    """Bilinear form [J] of all springs of a law; half of it at twice the same stresses is what they store."""
+    springs = strain(one[0] / law.spring, other[0])
+    for modulus, a, b in zip(np.atleast_1d(law.kelvin_springs), one[1], other[1], strict=True):
+        springs += strain(modulus * a, b)
+    return springs
+
+
+def power_of_dashpots(law: AnyLaw, strain: Form, sigma: np.ndarray, rate: np.ndarray) -> float:
+    """What all dashpots of a law take [W] at stresses `sigma` [Pa] and rates (k, ...) of its Kelvin elements [m/s]."""
+    power = strain(sigma / law.dashpot, sigma)
+    for viscosity, of_element in zip(np.atleast_1d(law.kelvin_dashpots), rate, strict=True):
+        power += strain(viscosity * of_element, of_element)
+    return power
 
 
 class Forms(NamedTuple):
@@ -152,14 +158,15 @@ def forms(stepper: Any) -> Forms:
     if model is not None:
         return Forms(_matrix_form(model.stiffness), _matrix_form(model.mass), model.load, 0)
     system = stepper.system
-    return Forms(_diagonal_form(stepper.weight), _diagonal_form(system.mass), system.load, system.driven)
+    return Forms(diagonal_form(stepper.weight), diagonal_form(system.mass), system.load, system.driven)
 
 
 def _matrix_form(matrix: np.ndarray) -> Form:
     return lambda x, y: float(x @ matrix @ y)
 
 
-def _diagonal_form(weight: np.ndarray) -> Form:
+def diagonal_form(weight: np.ndarray) -> Form:
+    """The form of a diagonal matrix."""
     return lambda x, y: float((x * weight) @ y)
 
 

@@ -6,9 +6,8 @@ from pathlib import Path
 
 import pandas as pd
 
+from asphalt_nscd.bending.fall import PARTS
 from asphalt_nscd.files.store import load
-
-PARTS = ("kinetic", "springs", "dashpots", "impact", "friction", "fracture", "numerical", "turning")
 
 
 def make(fall: list[Path]) -> pd.DataFrame:
