@@ -308,3 +308,17 @@ def test_one_rule_for_overlaps_at_every_size(spheres):
     radius = np.full(spheres, 2e-3)
     radius[0] = 1e-3
     assert PouringNumerics.of(radius, 4e-4).allowed_overlap == pytest.approx(5e-6)
+
+
+def test_fixed_spheres_stay_and_bear_a_third():
+    """Two of no inverse mass that overlap are no contact: 1/0 made NaN of every motion."""
+    radius = np.full(3, 4e-3)
+    position = np.array([[0.012, 0.012, 0.004], [0.0195, 0.012, 0.004], [0.01575, 0.012, 0.0115]])
+    bed = GranularBed.in_box(position, radius, (0.03, 0.03, 0.03), 2600.0, 0.5)
+    bed.inverse_mass[:2] = 0.0
+    numerics = PouringNumerics.of(radius, 4e-4)
+    for _ in range(200):
+        bed.advance(numerics)
+    np.testing.assert_array_equal(bed.position[:2], position[:2])
+    assert bed.position[2, 2] == pytest.approx(0.004 + np.sqrt(0.008**2 - 0.00375**2), abs=1e-4)
+    assert np.abs(bed.velocity).max() < 1e-3

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+import asphalt_nscd as an
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
+from asphalt_nscd.measurements.geometry import read_shape
 from asphalt_nscd.specimen import preparation
-from asphalt_nscd.specimen.cutting import Cutting, read_specimen, trim_deposit
+from asphalt_nscd.specimen.cutting import Cutting, bonded, read_specimen, trim_deposit
 from asphalt_nscd.specimen.deposit import Vibration
-from asphalt_nscd.specimen.preparation import Pouring, Surfaces, deposit, layer_statistics
+from asphalt_nscd.specimen.preparation import Pouring, Surfaces, deposit, layer_statistics, pour_on
 from asphalt_nscd.specimen.trimming import layer_height
 
 BOX = (0.06, 0.01, 0.14)
@@ -226,3 +228,40 @@ def test_smooth_walls_bear_a_layer_from_below_alone():
         assert (np.linalg.norm(force[between], axis=1) > 1.01 * normal).any()  # grains rub as ever
         borne.append(-force[side][:, 2].sum() / -force[bodies[:, 1] >= n][:, 2].sum())
     assert abs(borne[0]) < 1e-12 and borne[1] > 1e-3
+
+
+GRID = np.indices((8, 4, 4)).reshape(3, -1).T * 7e-3 + 4e-3
+BOX_OF_GRID = np.array([0.07, 0.03, 0.03])
+
+
+@pytest.mark.parametrize(
+    "wrong, said",
+    [
+        ({"radius": np.where(np.arange(128) == 4, -3e-3, 3e-3)}, "sphere 5 has a radius of zero or less"),
+        ({"radius": np.zeros(128)}, "sphere 1 has a radius of zero or less"),
+        ({"radius": np.full(127, 3e-3)}, r"positions \(128, 3\) and radii \(127,\); give numbers x, y, z"),
+        ({"position": GRID[:, :2]}, r"positions \(128, 2\) and radii \(128,\)"),
+        ({"position": np.where(GRID == GRID[7], np.nan, GRID)}, "sphere 1 is not finite"),
+        ({"position": np.empty((0, 3)), "radius": np.empty(0)}, "holds no sphere"),
+        ({"radius": np.array(["3 mm"] * 128)}, "give numbers x, y, z"),
+        ({"box": np.array([0.07, 0.03])}, "give length, width and height"),
+    ],
+)
+def test_arrays_that_are_no_spheres_are_refused_wherever_they_enter(wrong, said):
+    """A radius below zero had the search write outside of its arrays: the process ended."""
+    arrays = {"position": GRID, "radius": np.full(128, 3e-3), "box": BOX_OF_GRID} | wrong
+    with pytest.raises(InputError, match=said):
+        an.Packing(arrays, {})
+    if "box" not in wrong:
+        with pytest.raises(InputError, match=said):
+            pour_on(arrays["position"], arrays["radius"], Pouring(tuple(BOX_OF_GRID)))
+        with pytest.raises(InputError, match=said):
+            bonded((arrays, {}), read_shape(GEOMETRY | {"h_mm": 50}), Cutting())
+    with pytest.raises(InputError, match="no array 'radius'"):
+        an.Packing({"position": GRID, "box": BOX_OF_GRID}, {})
+
+
+def test_spheres_in_one_place_are_not_poured_on():
+    """All are pairs, which would part for hours."""
+    with pytest.raises(InputError, match="spheres 1 and 2 overlap by 200% of the smaller radius; give spheres apart"):
+        pour_on(np.full((260, 3), 0.015), np.full(260, 3e-3), Pouring((0.03, 0.03, 0.03)))

@@ -28,6 +28,7 @@ from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
 from asphalt_nscd.specimen.cutting import Cutting, bonded, specimen_of
 from asphalt_nscd.specimen.deposit import Vibration
+from asphalt_nscd.specimen.given_spheres import require_spheres
 from asphalt_nscd.specimen.preparation import Pouring, Surfaces, pour_on, unrest
 from asphalt_nscd.specimen.preparation import pour as pour_spheres
 from asphalt_nscd.specimen.trimming import Specimen as BondedSpheres
@@ -66,6 +67,7 @@ class Spheres(Result):
         return f"radii {1e3 * self.radius_m.min():.3g} to {1e3 * self.radius_m.max():.3g} mm"
 
 
+@dataclass(frozen=True)
 class Packing(Spheres):
     """Spheres at rest in a box [0, length] x [0, width] x [0, height], z upwards.
 
@@ -79,6 +81,11 @@ class Packing(Spheres):
     name : str, optional
         Of the packing in messages.
 
+    Raises
+    ------
+    InputError
+        With one sentence, where the arrays are not those of spheres in a box.
+
     Examples
     --------
     >>> packing = pour({8.0: 40}, (0.04, 0.03, 0.12), vibration=Vibration(duration=0.0))
@@ -87,6 +94,17 @@ class Packing(Spheres):
     """
 
     kind = DEPOSIT
+
+    def __post_init__(self) -> None:
+        missing = {"position", "radius", "box"} - set(self.arrays)
+        if missing:
+            raise InputError(f"packing: no array {min(missing)!r}; give position, radius and box.")
+        require_spheres("packing", self.position_m, self.radius_m)
+        sides = np.asarray(self.box_m)
+        if sides.shape != (3,) or not ((sides > 0.0) & np.isfinite(sides)).all():
+            raise InputError(
+                f"packing: box {sides.tolist()}; give length, width and height in m, greater than zero."
+            )
 
     @property
     def notes(self) -> tuple[str, ...]:

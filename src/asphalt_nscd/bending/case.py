@@ -190,7 +190,7 @@ class RunOptions:
     energy: bool = False
     checkpoint: Checkpoint | None = None
     frames: int = 0
-    most_broken: float = 1.0
+    most_broken: float = 0.2  # beyond, bond after bond breaks, and each is solved for: it took minutes
     most_closed: float = 0.1
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,31 +10,16 @@ from numpy.typing import NDArray
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.words import counted
-from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 from asphalt_nscd.packings.spheres import Spheres
 from asphalt_nscd.packings.texts import read_text
 from asphalt_nscd.packings.vtk_files import ENDINGS, read_points
 from asphalt_nscd.specimen.contents import Content
-from asphalt_nscd.specimen.preparation import TOUCHING, layer_statistics
+from asphalt_nscd.specimen.given_spheres import NOTABLE, Overlaps, overlaps
+from asphalt_nscd.specimen.preparation import layer_statistics
 
-NOTABLE, MOST = 0.01, 0.1  # overlap over the smaller radius: said, refused
+MOST = 0.1  # overlap over the smaller radius that is refused
 DIGITS = 1e-4  # of the smallest radius: what positions must resolve
 UP = ("x", "y", "z")
-
-
-@dataclass(frozen=True)
-class Overlaps:
-    """What touches and overlaps among spheres.
-
-    `touching` (p, 2) holds pairs of spheres; `largest` is the largest overlap [m], `share` the same over the smaller
-    radius, `pair` its two spheres, counted from 1; `count` is the number of pairs that overlap by more than NOTABLE.
-    """
-
-    touching: NDArray[np.int64]
-    largest: float
-    pair: tuple[int, int]
-    share: float
-    count: int
 
 
 def read_packing(path: str | Path) -> Spheres:
@@ -99,27 +83,6 @@ def as_deposit(spheres: Spheres, unit: str | None = None, up: str = "z") -> tupl
         "largest_overlap_m": found.largest,
     }
     return (arrays, attributes), notes
-
-
-def overlaps(position: NDArray[np.float64], radius: NDArray[np.float64]) -> Overlaps:
-    """Find what touches and overlaps among spheres; `position` (n, 3) and `radius` (n,) in m."""
-    none = np.empty((0, 3))
-    start, other = find_pairs(position, radius, none, none, TOUCHING)
-    first = np.repeat(np.arange(radius.size), np.diff(start))
-    gap = np.linalg.norm(position[other] - position[first], axis=1) - radius[first] - radius[other]
-    touching = np.column_stack([first, other])[gap < TOUCHING]
-    if not gap.size or gap.min() >= 0.0:
-        return Overlaps(touching, 0.0, (0, 0), 0.0, 0)
-    share = -gap / np.minimum(radius[first], radius[other])
-    worst = int(share.argmax())
-    # spheres are counted from one, as one counts the lines of a file
-    return Overlaps(
-        touching,
-        float(-gap.min()),
-        (int(first[worst]) + 1, int(other[worst]) + 1),
-        float(share[worst]),
-        int((share > NOTABLE).sum()),
-    )
 
 
 def _require_digits(metric: Spheres) -> None:

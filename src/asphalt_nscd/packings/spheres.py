@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.specimen.given_spheres import require_spheres
 
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6}
 GUESSED = ("m", "mm")
@@ -31,19 +32,9 @@ class Spheres:
     notes: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        if not self.radius.size:
-            raise InputError(f"{self.path}: holds no sphere; give at least one.")
+        require_spheres(self.path, self.position, self.radius)
         if self.radius.size > MOST:
             raise InputError(f"{self.path}: {self.radius.size} spheres; give at most {MOST}.")
-        values = np.column_stack([self.position, self.radius])
-        for bad, problem in (
-            (~np.isfinite(values).all(axis=1), "is not finite"),
-            (self.radius <= 0.0, "has a radius of zero or less"),
-        ):
-            if bad.any():
-                raise InputError(
-                    f"{self.path}: sphere {int(np.flatnonzero(bad)[0]) + 1} {problem}; correct or remove it."
-                )
 
     def in_metres(self, stated: str | None) -> tuple[Spheres, str]:
         """The same spheres in m, and a sentence on the unit.

@@ -11,6 +11,7 @@ from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.geometry import read_shape, require_within, shape_of
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN, Content
+from asphalt_nscd.specimen.given_spheres import require_spheres
 from asphalt_nscd.specimen.network import AREAS, Network
 from asphalt_nscd.specimen.trimming import Specimen, trim
 
@@ -51,6 +52,7 @@ def trim_deposit(
 def bonded(deposited: Content, shape: Shape, cutting: Cutting) -> Content:
     """Arrays and attributes of a specimen file, cut from those of a deposit file; see `trim_deposit`."""
     arrays, attributes = deposited
+    require_spheres("packing", arrays["position"], arrays["radius"])
     require_within(shape, arrays["box"].tolist())
     volume_reduction, gap_max, area = cutting.volume_reduction, 1e-3 * cutting.gap_max_mm, cutting.area
     specimen = trim(arrays["position"], arrays["radius"], shape, volume_reduction, gap_max, area)

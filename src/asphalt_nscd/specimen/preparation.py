@@ -26,6 +26,7 @@ from asphalt_nscd.specimen.deposit import (
     settle,
     vibrate,
 )
+from asphalt_nscd.specimen.given_spheres import TOUCHING, overlaps, require_spheres
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.specimen.trimming import layer_height
@@ -37,7 +38,7 @@ LONGEST_REST = 0.3  # s
 OUT_OF_BALANCE = 0.01  # of the weight, and of the mean contact force: a layer at rest has a twentieth of it
 DEEP = 0.05  # of the smallest radius: an overlap that a layer at rest does not have
 MOST_STEPS = 500_000  # of a pouring and its vibration
-TOUCHING = 1e-6  # m, gap below which two spheres count as touching
+DEEPEST = 0.5  # of the smaller radius: an overlap that pouring on does not undo
 
 
 @dataclass(frozen=True)
@@ -136,12 +137,21 @@ def pour_on(
     progress: Progress = lambda stage, done, total: None,
 ) -> Content:
     """Pour on from where spheres stand, `position` (n, 3), `radius` (n,) in m; returns content of a deposit file."""
+    require_spheres("packing", position, radius)
     slack = DEEP * radius.min()
     low, high = position - radius[:, None], position + radius[:, None]
     # so asked that NaN is outside
     if not ((low >= -slack).all() and (high <= np.asarray(pouring.box) + slack).all()):
         raise InputError(
             f"box_m = {pouring.box}: spheres of the packing lie outside; give a box that holds them."
+        )
+    deepest = overlaps(position, radius)
+    # spheres in one place would all be pairs, and part so slowly that pouring took hours
+    if deepest.share > DEEPEST:
+        first, second = deepest.pair
+        raise InputError(
+            f"packing: spheres {first} and {second} overlap by {deepest.share:.0%} of the smaller radius; give spheres "
+            "apart from each other."
         )
     return _settled(_bed(position, radius, pouring), pouring, progress)
 

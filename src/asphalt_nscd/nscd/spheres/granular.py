@@ -179,6 +179,10 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
             gather(workspace.motion, slabs.blocks, block, 1),
             gather(workspace.motion, slabs.blocks, block, 2),
         )
+        inverse = i[3] + j[3]
+        gap = select_greater(
+            inverse, zero, gap, broadcast(OUT_OF_REACH)
+        )  # of two fixed bodies: never a contact
         opening = (j[0] - i[0]) * x + (j[1] - i[1]) * y + (j[2] - i[2]) * z
         # a pair that moves apart counts by its gap: an impact may turn its grains within the step
         least = gap + broadcast(dt) * select_greater(opening, zero, zero, opening)
@@ -187,7 +191,7 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
         recovery = select_greater(overlap, zero, overlap, zero) / broadcast(dt)
         recovery = select_greater(recovery, broadcast(recovery_speed), broadcast(recovery_speed), recovery)
         target = select_greater(gap, zero, (zero - gap) / broadcast(dt), recovery)
-        near, mass = broadcast(margin), one / (i[3] + j[3])
+        near, mass = broadcast(margin), one / inverse
         store(contacts, block, 0, x)
         store(contacts, block, 1, y)
         store(contacts, block, 2, z)
@@ -263,8 +267,9 @@ def step(
     if rank == 0:
         pack_motion(velocity, inverse_mass, n, bodies, workspace.motion)
     for i in range(begin, end):
-        for k in range(3):
-            workspace.motion[i, k] += dt * gravity[k]
+        if inverse_mass[i] > 0.0:  # fixed spheres stay where they are
+            for k in range(3):
+                workspace.motion[i, k] += dt * gravity[k]
     # slabs read bodies that other members have packed
     barrier_wait(barrier, members)
     for kind in range(3):
