@@ -55,6 +55,21 @@ def test_a_specimen_and_its_test(packing):
     assert shown["kept of all spheres and bonds"] == "1 instant"
 
 
+def test_what_changes_nothing_and_sweeps_that_did_not_settle_are_told(packing):
+    beam = an.specimen(packing, SHAPE)
+    law = an.Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)
+    few = an.Numerics(rest_steps=0, method="sweeps", most_sweeps=5)
+    load = an.Load(amplitude_m=2e-6, cycles=1.0)
+    with pytest.warns(UserWarning) as told:
+        an.bend(beam, law, 10.0, 15.0, load=load, bonds=an.Bonds(kt_over_kn=0.5), numerics=few)
+    nothing, unsettled = (str(warning.message) for warning in told)
+    assert nothing.startswith("bonds: kt_over_kn = 0.5 changes nothing in bonds by area 'paper'")
+    assert unsettled.startswith("the sweeps did not settle: the last of 5") and told[0].filename == __file__
+    facets = an.specimen(packing, SHAPE, area="facets")
+    with pytest.warns(UserWarning, match="poisson = 0.2 changes nothing in bonds by area 'facets'"):
+        an.bend(facets, law, 10.0, 15.0, load=load, bonds=an.Bonds(poisson=0.2))
+
+
 def test_a_test_that_broke_bonds_says_so_where_it_was_asked_for(packing):
     beam = an.specimen(packing, SHAPE, area="facets")
     law = an.Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)

@@ -8,7 +8,7 @@ import click
 import numpy as np
 import pytest
 
-from asphalt_nscd.bending.bending_test import TestFiles, bond_law, run_test, simulate
+from asphalt_nscd.bending.bending_test import TestFiles, bond_law, run_test, simulate, unsettled
 from asphalt_nscd.bending.case import LoadCase, Numerics, RunOptions
 from asphalt_nscd.bending.condensing import Bonds, condense
 from asphalt_nscd.bending.layers import LAYERS
@@ -141,6 +141,9 @@ def test_methods_agree(model):
     stopped = run(model, "sweeps", progress=lambda *args: told.append(args))
     assert np.abs(stopped.force).max() < 0.7 * size
     assert stopped.details.keys() == {"sweeps", "tolerance", "most_sweeps"}
+    said = unsettled({"method": "sweeps", "residual": stopped.residual} | stopped.details)
+    assert f"a residual of {stopped.residual:.2g}, where 0.0001 was asked for" in said
+    assert unsettled({"method": "sweeps", "residual": 1e-5} | stopped.details) == ""
     assert 25 * 520 < stopped.details["sweeps"] <= 50 * 520
     assert told[-1] == (520, 520)
 

@@ -11,7 +11,7 @@ import asphalt_nscd as an
 from asphalt_nscd.bending.bending_test import bond_law, run_test
 from asphalt_nscd.bending.case import LoadCase, Numerics
 from asphalt_nscd.bending.condensing import Bonds, condensed
-from asphalt_nscd.bending.hold import Hold, hold, told
+from asphalt_nscd.bending.hold import Hold, coarse, hold, told
 from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.cli import hold as hold_command
 from asphalt_nscd.cli import simulate as simulate_command
@@ -51,6 +51,18 @@ def test_the_law_is_found_again_at_all_times(prism, law, what):
     else:
         assert (table["displacement_m"] == 2e-8).all() and table["force_N"].iloc[-1] > 0.0
     assert table.attrs["broken_bonds"] == 0 and table.attrs["residual"] < 1e-6
+
+
+def test_steps_too_long_for_the_law_are_told(prism):
+    """Implicit Euler relaxes by 1 / (1 + x) a step, the law by exp(-x): far out that is another modulus."""
+    fading = KelvinChain(24.3e9, 3.71e9, (), ())  # by 1 / 0.15 s
+    for steps, doubtful in ((200, True), (20_000, False)):
+        table = hold(prism, fading, Hold(1.5, steps, displacement_m=2e-8))
+        off = table.attrs["error_at_end"]
+        x = 1.5 / steps * 24.3 / 3.71
+        assert off == pytest.approx((1.0 + x) ** -steps * np.exp(steps * x) - 1.0, rel=0.02)
+        assert (coarse(table) != "") == doubtful
+    assert coarse(hold(prism, fading, Hold(1.5, 20, displacement_m=2e-8))).startswith("hold: at its end E is")
 
 
 def test_what_breaks_is_told(prism):

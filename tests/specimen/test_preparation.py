@@ -195,7 +195,7 @@ def test_a_layer_at_rest_that_is_poured_on_stays_where_it_is(folder, poured):
         with pytest.raises(InputError, match="spheres of the packing lie outside"):
             deposit(folder / "deposit.h5", Pouring(box), folder / "again.h5")
     position = np.where(np.arange(radius.size)[:, None] == 3, np.nan, position)
-    with pytest.raises(InputError, match="spheres of the packing lie outside"):
+    with pytest.raises(InputError, match="sphere 4 is not finite"):
         preparation.pour_on(position, radius, still)
 
 
@@ -263,5 +263,15 @@ def test_arrays_that_are_no_spheres_are_refused_wherever_they_enter(wrong, said)
 
 def test_spheres_in_one_place_are_not_poured_on():
     """All are pairs, which would part for hours."""
-    with pytest.raises(InputError, match="spheres 1 and 2 overlap by 200% of the smaller radius; give spheres apart"):
+    with pytest.raises(
+        InputError, match="spheres 1 and 2 overlap by 200% of the smaller radius; give spheres apart"
+    ):
         pour_on(np.full((260, 3), 0.015), np.full(260, 3e-3), Pouring((0.03, 0.03, 0.03)))
+
+
+def test_a_vibration_that_the_steps_do_not_follow_is_refused():
+    with pytest.raises(
+        InputError, match=r"2.5 steps of 0.0004 s in a period of 1000 Hz .* step of 0.0001 s or less"
+    ):
+        Pouring(BOX, vibration=Vibration(frequency=1000.0))
+    assert Pouring(BOX, vibration=Vibration(frequency=1000.0, duration=0.0))

@@ -15,10 +15,10 @@ from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.pictures import drawing, sheet, shown_in_notebooks
 from asphalt_nscd.api.results import Result
 from asphalt_nscd.api.specimens import Specimen
-from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told
+from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told, unsettled
 from asphalt_nscd.bending.case import Load, Numerics, RunOptions
-from asphalt_nscd.bending.condensing import Bonds, condensed
-from asphalt_nscd.bending.hold import Hold
+from asphalt_nscd.bending.condensing import Bonds, condensed, without_effect
+from asphalt_nscd.bending.hold import Hold, coarse
 from asphalt_nscd.bending.hold import hold as of_hold
 from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.files.store import Record
@@ -216,7 +216,8 @@ def bend(
     Warns
     -----
     UserWarning
-        If bonds break: E* is then that of a damaged specimen.
+        If bonds break: E* is then that of a damaged specimen. If sweeps did not settle, or a choice of `bonds` has no
+        effect.
 
     Examples
     --------
@@ -236,9 +237,10 @@ def bend(
     test = Test(
         *outcome(_model(_Once(given), bonds), followed, temperature_C, case, numerics, options), given.name
     )
+    doubts = [without_effect(bonds, given.bonded.area), unsettled(test.attributes)]
     if test.broken_bonds:
-        # 3: past `checked`, so that the warning shows the user's own line.
-        warnings.warn(damage(test.attributes), stacklevel=3)
+        doubts.append(damage(test.attributes))
+    _warn(doubts)
     return test
 
 
@@ -277,6 +279,11 @@ def hold(
     InputError
         With one sentence, where the law does not hold at this temperature, or the specimen breaks in two.
 
+    Warns
+    -----
+    UserWarning
+        If the steps are too long for the law, or a choice of `bonds` has no effect.
+
     Examples
     --------
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
@@ -290,7 +297,15 @@ def hold(
     given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
     law = law if isinstance(law, Law) else Law.read(law)
     lowest, highest = held.band
-    return of_hold(_model(_Once(given), bonds), law.of_bonds(lowest, temperature_C, highest).bonds, held)
+    table = of_hold(_model(_Once(given), bonds), law.of_bonds(lowest, temperature_C, highest).bonds, held)
+    _warn([without_effect(bonds, given.bonded.area), coarse(table)])
+    return table
+
+
+def _warn(sentences: list[str]) -> None:
+    for sentence in filter(None, sentences):
+        # 4: past this and `checked`, so that the warning shows the user's own line.
+        warnings.warn(sentence, stacklevel=4)
 
 
 class _Once:

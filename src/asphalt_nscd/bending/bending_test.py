@@ -212,6 +212,17 @@ def damage(columns: Mapping[str, Any]) -> str:
     )
 
 
+def unsettled(columns: Mapping[str, Any]) -> str:
+    """A sentence on sweeps that ended before they had settled; empty for any other test."""
+    if columns["method"] != "sweeps" or columns["residual"] < columns["tolerance"]:
+        return ""
+    return (
+        f"the sweeps did not settle: the last of {columns['most_sweeps']} in a step still changed the reactions by a "
+        f"residual of {columns['residual']:.2g}, where {columns['tolerance']:g} was asked for, so E* is not that of "
+        "the specimen; allow more sweeps, or choose the method reduced."
+    )
+
+
 def outcome(
     model: Model | ModelExcerpt,
     law: Burgers | KelvinChain,

@@ -54,14 +54,26 @@ class Bonds(Ranged):
     friction: float = within(0.7, low=0.0, high=100.0)
 
 
+def without_effect(bonds: Bonds, area: str) -> str:
+    """A sentence on what was chosen of `bonds` and changes nothing in bonds by this area; empty for none."""
+    name, other = ("poisson", "paper") if area == "facets" else ("kt_over_kn", "facets")
+    value = getattr(bonds, name)
+    if value == getattr(Bonds(), name):
+        return ""
+    return (
+        f"bonds: {name} = {value:g} changes nothing in bonds by area {area!r}; leave it out, or cut the specimen by "
+        f"area {other!r}."
+    )
+
+
 def condense(
     specimen_file: str | Path,
     bonds: Bonds,
     output: str | Path,
     excerpt_output: str | Path | None = None,
     stand_by: int | None = None,
-) -> tuple[int, float]:
-    """Condense a specimen to a model file; returns the number of unknowns and static |E*| over the bonds' modulus."""
+) -> tuple[int, float, str]:
+    """Condense a specimen to a model file: number of unknowns, static |E*| over the bonds' modulus, area of bonds."""
     specimen = read_specimen(specimen_file)
     arrays, attributes = condensed(specimen, Path(specimen_file).stem, bonds, stand_by)
     digest = save(output, "model", arrays, attributes)
@@ -70,7 +82,7 @@ def condense(
         write_excerpt(excerpt_output, model, digest)
     # column 0 of the basis is the static motion of the head
     static = specimen.geometry.form_factor() * stiffness(model.system, arrays["basis"][:, 0])
-    return int(arrays["mass"].size), static
+    return int(arrays["mass"].size), static, specimen.area
 
 
 def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None = None) -> Content:

@@ -18,7 +18,9 @@ from asphalt_nscd.nscd.bonds.head import HeadDevices
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import of_chain
+from asphalt_nscd.specimen.prism import stiffness
 
+COARSE = 0.05  # of the law: an error at the end that is told
 MOST_BROKEN = 0.02  # of the bonds; beyond, the specimen no longer follows its law
 
 
@@ -87,10 +89,11 @@ class Hold(Ranged):
 def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     """Hold a force or a displacement of the head from rest, and set the closed form of the law beside.
 
-    The form factor of the test is used; inertia and weight are left out. Each step has time_s, displacement_m, force_N;
-    of creep D_1_GPa and D_law_1_GPa, of relaxation E_MPa and E_law_MPa. `attrs`: broken_bonds, residual of the full
-    equations. Raises InputError where the specimen breaks in two or, once the full equations go on, more than
-    `MOST_BROKEN` of its bonds break, or so many of its gaps close that strains are no longer small.
+    The form factor of the test is used; inertia and weight are left out. Each step has time_s, displacement_m,
+    force_N; of creep D_1_GPa and D_law_1_GPa, of relaxation E_MPa and E_law_MPa. `attrs`: broken_bonds, residual of
+    the full equations, error_at_end against the law by statics. Raises InputError where the specimen breaks in two
+    or, once the full equations go on, more than `MOST_BROKEN` of its bonds break, or so many of its gaps close that
+    strains are no longer small.
     """
     chain = law.as_chain() if isinstance(law, Burgers) else law
     dt, geometry = held.time_step, model.geometry
@@ -116,8 +119,24 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
         table["D_1_GPa"], table["D_law_1_GPa"] = 1e9 / modulus, 1e9 * chain.creep_compliance(times)
     else:
         table["E_MPa"], table["E_law_MPa"] = modulus / 1e6, of_chain(chain).relaxation_modulus(times) / 1e6
+    # bonds of one law show that law times a constant of statics, whose motion is column 0 of the basis
+    constant = geometry.form_factor() * stiffness(model.system, model.basis[:, 0])
+    shown = float(table.iloc[-1, 3] / table.iloc[-1, 4])
+    off = abs((shown / constant if held.force_N is None else shown * constant) - 1.0)
     table.attrs = {"specimen": model.name, "broken_bonds": len(run.broken), "residual": run.residual}
+    table.attrs["error_at_end"] = off
     return table
+
+
+def coarse(table: pd.DataFrame) -> str:
+    """A sentence on steps too long for the law of a hold; empty where they are short enough, or bonds broke."""
+    off = table.attrs["error_at_end"]
+    if table.attrs["broken_bonds"] or off <= COARSE:
+        return ""
+    return (
+        f"hold: at its end {table.columns[3][0]} is {off:.0%} off what statics make of the law: steps are too long for "
+        "it, or the specimen still swings; give more steps, or another duration."
+    )
 
 
 def told(table: pd.DataFrame) -> str:

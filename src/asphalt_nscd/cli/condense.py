@@ -57,7 +57,9 @@ def command(
     specimen: Path, bonds: dict[str, Any], stand_by: int | None, output: Path, excerpt_output: Path | None
 ) -> None:
     """Assemble the bonded system of a specimen and its reduced form. Every test on the specimen uses them."""
-    from asphalt_nscd.bending.condensing import Bonds, condense
+    from asphalt_nscd.bending.condensing import Bonds, condense, without_effect
 
-    unknowns, static = condense(specimen, Bonds(**bonds), output, excerpt_output, stand_by)
+    unknowns, static, area = condense(specimen, Bonds(**bonds), output, excerpt_output, stand_by)
+    if idle := without_effect(Bonds(**bonds), area):
+        click.echo(f"warning: {idle}", err=True)
     click.echo(f"{output}: {unknowns} unknowns; static |E*| is {static:.4g} of the modulus of the bonds")

@@ -36,7 +36,7 @@ _HOLD = "bending.hold.Hold"
 @_options.output
 def command(model: Path, law: Path, temperature_c: float, held: dict[str, Any], output: Path) -> None:
     """Hold a force (creep) or a displacement (relaxation) on a specimen; a CSV with the law's closed form beside."""
-    from asphalt_nscd.bending.hold import Hold, hold, told
+    from asphalt_nscd.bending.hold import Hold, coarse, hold, told
     from asphalt_nscd.bending.model import read_model
     from asphalt_nscd.files.store import write_table
     from asphalt_nscd.rheology.laws_io import read_bond_law
@@ -45,3 +45,5 @@ def command(model: Path, law: Path, temperature_c: float, held: dict[str, Any], 
     table = hold(read_model(model), read_bond_law(law, temperature_c, what.band), what)
     write_table(output, table)
     click.echo(f"{output}: {told(table)}")
+    if doubt := coarse(table):
+        click.echo(f"warning: {doubt}", err=True)

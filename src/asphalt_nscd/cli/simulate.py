@@ -162,7 +162,7 @@ def command(
         )
     if files["checkpoint"] is not None and count > 1:
         raise click.UsageError("--checkpoint keeps one test; give one --frequency-hz.")
-    from asphalt_nscd.bending.bending_test import TestFiles, damage, read_subject, simulate, told
+    from asphalt_nscd.bending.bending_test import TestFiles, damage, read_subject, simulate, told, unsettled
     from asphalt_nscd.bending.case import Load, Numerics, RunOptions
     from asphalt_nscd.measurements.kinds import usual_steps_per_cycle
 
@@ -193,3 +193,5 @@ def command(
         click.echo(told(columns))
         if columns["broken_bonds"]:
             click.echo(f"warning: {damage(columns)}", err=True)
+        if doubt := unsettled(columns):
+            click.echo(f"warning: {doubt}", err=True)

@@ -37,6 +37,7 @@ LONGEST_POURING = 3.0  # s; the fall from 1.6 m takes 0.6
 LONGEST_REST = 0.3  # s
 OUT_OF_BALANCE = 0.01  # of the weight, and of the mean contact force: a layer at rest has a twentieth of it
 DEEP = 0.05  # of the smallest radius: an overlap that a layer at rest does not have
+FEWEST_STEPS = 10  # in a period of the vibration
 MOST_STEPS = 500_000  # of a pouring and its vibration
 DEEPEST = 0.5  # of the smaller radius: an overlap that pouring on does not undo
 
@@ -87,6 +88,13 @@ class Pouring(Ranged):
             raise InputError(
                 f"a box of {box[0]:g} x {box[1]:g} x {box[2]:g} m is longer than {LARGEST_BOX:g} m; give its sides in "
                 "m, not in mm."
+            )
+        frequency = self.vibration.frequency
+        period = 1.0 / (frequency * self.time_step)
+        if self.vibration.duration > 0.0 and period < FEWEST_STEPS:
+            raise InputError(
+                f"vibration: {period:.2g} steps of {self.time_step:g} s in a period of {frequency:g} Hz do not follow "
+                f"it; give a time step of {1.0 / (frequency * FEWEST_STEPS):.2g} s or less."
             )
         steps = (LONGEST_POURING + 3.0 * LONGEST_REST + self.vibration.duration) / self.time_step
         if steps > MOST_STEPS:
