@@ -20,13 +20,7 @@ from asphalt_nscd.nscd.lanes import (
     store,
     total,
     zeros,
-    zeros_of,
 )
-
-
-@pytest.fixture(params=[np.float64, np.float32])
-def precision(request):
-    return request.param
 
 
 @pytest.fixture
@@ -36,8 +30,8 @@ def numbers():
     return array
 
 
-def test_rows_are_cache_lines(precision):
-    arrays = [aligned((rows, WIDTH), precision) for rows in range(1, 60)]
+def test_rows_are_cache_lines():
+    arrays = [aligned((rows, WIDTH)) for rows in range(1, 60)]
     assert all(array.ctypes.data % 64 == 0 and array.flags.c_contiguous for array in arrays)
     assert not any(array.any() for array in arrays)
 
@@ -83,28 +77,13 @@ def test_sum_runs_from_the_first_lane_to_the_last():
     assert add(array) == sum(array[0, 0].tolist())
 
 
-def test_of_single_precision_each_operation_is_rounded_to_it():
-    @njit
-    def combine(array):
-        a, b = load(array, 0, 0), load(array, 0, 1)
-        store(array, 0, 2, zeros_of(array) + a * b - a / b)
-        return total(a)
-
-    array = aligned((1, 3, WIDTH), np.float32)
-    array[:] = np.random.default_rng(1).standard_normal(array.shape)
-    a, b = array[0, :2].copy()
-    assert combine(array) == sum(a.astype(float).tolist())
-    np.testing.assert_array_equal(array[0, 2], a * b - a / b)
-    assert (a * b - a / b != a.astype(float) * b - a.astype(float) / b).any()
-
-
-def test_rows_become_columns_and_return(precision):
+def test_rows_become_columns_and_return():
     @njit
     def shift(rows, which, block, side):
         a, b, c, d, e, f, g, h = gather(rows, which, block, side)
         scatter(rows, which, block, side, (a + b, b, c - a, d, e, f * f, g, h))
 
-    rows = aligned((20, WIDTH), precision)
+    rows = aligned((20, WIDTH))
     rows[:] = np.random.default_rng(2).standard_normal(rows.shape)
     which = np.random.default_rng(3).permutation(20)[: 2 * WIDTH].reshape(1, 2, WIDTH).astype(np.int32)
     expected = rows.copy()

@@ -2,7 +2,7 @@
 
 LLVM makes such instructions of a loop only where it can prove that its rounds do not meet in memory. Lanes
 say so. A processor with narrower registers takes eight lanes in two or four parts, with equal bits.
-The numbers are of double precision or of single: those of the array that lanes are loaded from.
+The numbers are of double precision.
 """
 
 from __future__ import annotations
@@ -19,17 +19,20 @@ from numba.extending import intrinsic, models, overload, register_model
 
 WIDTH = 8  # lanes: of double precision 64 bytes, which is a cache line
 LINE = 64  # bytes
+ALIGNMENT = (
+    8  # bytes, of one number: LLVM would load whole lines, which fault in views and copies that straddle them
+)
 _PLACE = ir.IntType(32)
 
 
 class _Lanes(types.Type):
-    def __init__(self, number: types.Float) -> None:
-        self.number = number
-        self.vector = ir.VectorType(ir.DoubleType() if number == types.float64 else ir.FloatType(), WIDTH)
-        super().__init__(name=f"Lanes({number})")
+    vector = ir.VectorType(ir.DoubleType(), WIDTH)
+
+    def __init__(self) -> None:
+        super().__init__(name="Lanes")
 
 
-_lanes = _Lanes(types.float64)
+_lanes = _Lanes()
 
 
 @register_model(_Lanes)
@@ -38,10 +41,10 @@ class _LanesModel(models.PrimitiveModel):
         super().__init__(manager, of, of.vector)
 
 
-def aligned(shape: tuple[int, ...], number: type[np.floating] = np.float64) -> np.ndarray:
-    """Zeros of which each row of lanes is one cache line or half of one; rows across two take longer to read."""
+def aligned(shape: tuple[int, ...]) -> np.ndarray:
+    """Zeros of which each row of lanes is one cache line; rows across two take longer to read."""
     size = int(np.prod(shape))
-    room = np.zeros(size + 2 * WIDTH, number)
+    room = np.zeros(size + WIDTH)
     start = -room.ctypes.data % LINE // room.itemsize
     return room[start : start + size].reshape(shape)
 
@@ -58,7 +61,7 @@ def _lane_by_lane(action: Callable[..., Any], instruction: str) -> None:
 
     @overload(action)
     def acts_on_lanes(a, b):  # its names and annotations must be those of what it returns
-        if isinstance(a, _Lanes) and a == b:
+        if isinstance(a, _Lanes) and isinstance(b, _Lanes):
             return lambda a, b: act(a, b)
         return None
 
@@ -83,13 +86,8 @@ def _row(context: Any, builder: ir.IRBuilder, kind: Any, array: Any, *place: ir.
     return builder.gep(array.data, [at])
 
 
-def _as_lanes(builder: ir.IRBuilder, array: Any, pointer: ir.Value) -> ir.Value:
-    return builder.bitcast(pointer, _Lanes(array.dtype).vector.as_pointer())
-
-
-def _alignment(array: Any) -> int:
-    # of one number: LLVM would take loads of whole lines, which fault in views and copies that straddle them
-    return int(array.dtype.bitwidth) // 8
+def _as_lanes(builder: ir.IRBuilder, pointer: ir.Value) -> ir.Value:
+    return builder.bitcast(pointer, _lanes.vector.as_pointer())
 
 
 def _rows(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> list[ir.Value]:
@@ -100,7 +98,7 @@ def _rows(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -
     for lane in range(WIDTH):
         row = builder.load(builder.gep(first, [_PLACE(lane)]))
         row = builder.sext(row, arguments[2].type)
-        found.append(_as_lanes(builder, kind, _row(context, builder, kind, arguments[0], row)))
+        found.append(_as_lanes(builder, _row(context, builder, kind, arguments[0], row)))
     return found
 
 
@@ -129,19 +127,8 @@ def zeros(typing_context: Any) -> Any:
 
 
 @intrinsic
-def zeros_of(typing_context: Any, array: Any) -> Any:
-    """Lanes of zero, of the numbers of an array."""
-    kind = _Lanes(array.dtype)
-
-    def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        return ir.Constant(kind.vector, [0.0] * WIDTH)
-
-    return kind(array), code
-
-
-@intrinsic
 def broadcast(typing_context: Any, value: Any) -> Any:
-    """One number in all lanes, of double precision."""
+    """One number in all lanes."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         lanes = ir.Constant(_lanes.vector, ir.Undefined)
@@ -177,7 +164,7 @@ def select_greater(typing_context: Any, a: Any, b: Any, then: Any, otherwise: An
 
 @intrinsic
 def above(typing_context: Any, a: Any, b: Any) -> Any:
-    """An int64 (0 to 255) of which bit k is set if a > b in lane k, for lanes of double precision."""
+    """An int64 (0 to 255) of which bit k is set if a > b in lane k."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         bits = builder.bitcast(builder.fcmp_ordered(">", *arguments), ir.IntType(WIDTH))
@@ -188,25 +175,25 @@ def above(typing_context: Any, a: Any, b: Any) -> Any:
 
 @intrinsic
 def load(typing_context: Any, array: Any, block: Any, row: Any) -> Any:
-    """The lanes array[block, row, :] of an `aligned` array (b, rows, WIDTH), double or single precision."""
+    """The lanes array[block, row, :] of an `aligned` array (b, rows, WIDTH)."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments)
-        return builder.load(_as_lanes(builder, signature.args[0], at), align=_alignment(array))
+        return builder.load(_as_lanes(builder, at), align=ALIGNMENT)
 
-    return _Lanes(array.dtype)(array, types.intp, types.intp), code
+    return _lanes(array, types.intp, types.intp), code
 
 
 @intrinsic
 def store(typing_context: Any, array: Any, block: Any, row: Any, value: Any) -> Any:
-    """Write lanes to array[block, row, :], whose precision they have; `array` (b, rows, WIDTH) is `aligned`."""
+    """Write lanes to array[block, row, :] of an `aligned` array (b, rows, WIDTH)."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _row(context, builder, signature.args[0], *arguments[:3])
-        builder.store(arguments[3], _as_lanes(builder, signature.args[0], at), align=_alignment(array))
+        builder.store(arguments[3], _as_lanes(builder, at), align=ALIGNMENT)
         return context.get_dummy_value()
 
-    return types.void(array, types.intp, types.intp, _Lanes(array.dtype)), code
+    return types.void(array, types.intp, types.intp, _lanes), code
 
 
 @intrinsic
@@ -217,12 +204,10 @@ def gather(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any)
     """
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
-        rows = [
-            builder.load(at, align=_alignment(array)) for at in _rows(context, builder, signature, arguments)
-        ]
+        rows = [builder.load(at, align=ALIGNMENT) for at in _rows(context, builder, signature, arguments)]
         return context.make_tuple(builder, signature.return_type, _transposed(builder, rows))
 
-    return types.UniTuple(_Lanes(array.dtype), WIDTH)(array, numbers, types.intp, types.intp), code
+    return types.UniTuple(_lanes, WIDTH)(array, numbers, types.intp, types.intp), code
 
 
 @intrinsic
@@ -232,7 +217,7 @@ def scatter(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         rows = _transposed(builder, cgutils.unpack_tuple(builder, arguments[4]))
         for row, at in zip(rows, _rows(context, builder, signature, arguments), strict=True):
-            builder.store(row, at, align=_alignment(array))
+            builder.store(row, at, align=ALIGNMENT)
         return context.get_dummy_value()
 
     return types.void(array, numbers, types.intp, types.intp, columns), code
@@ -240,18 +225,17 @@ def scatter(typing_context: Any, array: Any, numbers: Any, block: Any, side: Any
 
 @intrinsic
 def total(typing_context: Any, value: Any) -> Any:
-    """Sum of the lanes in double precision, first to last on every processor, and so with equal bits."""
+    """Sum of the lanes, first to last on every processor, and so with equal bits."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         # one after another: in the same order on every processor
         lanes = [builder.extract_element(arguments[0], _PLACE(lane)) for lane in range(WIDTH)]
-        lanes = [builder.fpext(lane, ir.DoubleType()) if value != _lanes else lane for lane in lanes]
         result = lanes[0]
         for lane in lanes[1:]:
             result = builder.fadd(result, lane)
         return result
 
-    return types.float64(value), code
+    return types.float64(_lanes), code
 
 
 @intrinsic

@@ -31,11 +31,10 @@ def small(request, make_beam):
     return bending_system(make_beam(shape=(2, 2, 4)), 0.35, 2.7e6, 0.7, head=request.param)
 
 
-@pytest.mark.parametrize(("tolerance", "rounding"), [(1e-7, 1e-11), (1e-3, 1e-6)])
+@pytest.mark.parametrize("tolerance", [1e-7, 1e-3])
 @pytest.mark.parametrize("most_sweeps", [1, 2, 9])
-def test_naive_twin(small, most_sweeps, tolerance, rounding):
-    """Three steps from rest, stopped after a few sweeps: the same unconverged numbers, to the rounding of double
-    precision, and of single where the tolerance is coarse."""
+def test_naive_twin(small, most_sweeps, tolerance, rounding=1e-11):
+    """Three steps from rest, stopped after a few sweeps: the same unconverged numbers, to rounding."""
     stepper = sweeping(small, STIFF, tolerance, most_sweeps)
     law = STIFF.step(DT)
     sweeps = 0
@@ -66,8 +65,6 @@ def test_naive_twin(small, most_sweeps, tolerance, rounding):
         kelvin = law.kelvin_decay[:, None] * old_kelvin - law.kelvin_gain[:, None] * reaction / small.weight
         np.testing.assert_allclose(stepper.state.kelvin, kelvin, rtol=0, atol=rounding * np.abs(kelvin).max())
     assert stepper.sweeps == sweeps
-    finest = np.abs(small.weight * stepper.state.sigma - reaction).max() / size
-    assert (finest < 1e-11) == (tolerance < 1e-6)
 
 
 def test_run_to_convergence_it_solves_the_condensed_equations(small):

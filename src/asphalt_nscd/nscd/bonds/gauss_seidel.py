@@ -13,7 +13,7 @@ import numpy as np
 from scipy import sparse
 
 from asphalt_nscd.nscd.compiled import compiled
-from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, scatter, store, total, zeros_of
+from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, scatter, store, total, zeros
 
 SYMMETRIC = np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2])  # the order of six entries
 WINDOW = 256
@@ -24,18 +24,11 @@ class PackedBonds:
     """Bonds of an opening operator in global axes; body k has degrees of freedom 6 k, ...
 
     `operator` is G (3 b, d); `mobility` (d,) is dt / mass [s/kg, s/(kg m2)], zero where a velocity is prescribed; `law`
-    (3 b,) is the diagonal D [m/(N s)] of the affine law U = b - D R. With a `number` of single precision a sweep takes
-    little more than half the time.
+    (3 b,) is the diagonal D [m/(N s)] of the affine law U = b - D R.
     """
 
-    def __init__(
-        self,
-        operator: sparse.csr_matrix,
-        mobility: np.ndarray,
-        law: np.ndarray,
-        number: type[np.floating] = np.float64,
-    ) -> None:
-        self.size, self._law, self._number = mobility.size, law, number
+    def __init__(self, operator: sparse.csr_matrix, mobility: np.ndarray, law: np.ndarray) -> None:
+        self.size, self._law = mobility.size, law
         bodies, self._frame, arm = _rigid_bonds(operator)
         nobody = -(-self.size // 6)
         # what stands still is a body of no mobility, whose row stays zero: sweeps need no branch for it
@@ -61,7 +54,7 @@ class PackedBonds:
         self.visits = self._blocks[block, lane]
         self._bodies = np.full((len(self._blocks), 2, WIDTH), nobody, np.int32)
         self._bodies[block, :, lane] = bodies[self.visits]
-        self._packed = aligned((len(self._blocks), 18, WIDTH), number)
+        self._packed = aligned((len(self._blocks), 18, WIDTH))
         self._packed[block, 6:12, lane] = np.linalg.inv(response)[self.visits][:, *SYMMETRIC]
         self._packed[block, 12:, lane] = arm.reshape(-1, 6)[self.visits]
 
@@ -87,11 +80,11 @@ class PackedBonds:
             self._bodies, self._packed, motion, self._mobility, self._even, tolerance, most_sweeps
         )
         reaction = _reactions(self._blocks, self._frame, self._packed)
-        return reaction, motion[:, :6].astype(float).ravel()[: self.size], sweeps, change
+        return reaction, motion[:, :6].ravel()[: self.size], sweeps, change
 
     def _by_body(self, values: np.ndarray, nobody: int) -> np.ndarray:
         """Values (d,) in a row of eight for each body, and a row of zeros for what stands still."""
-        rows = aligned((nobody + 1, WIDTH), self._number)
+        rows = aligned((nobody + 1, WIDTH))
         six = np.zeros(6 * (nobody + 1))
         six[: self.size] = values
         rows[:, :6] = six.reshape(-1, 6)
@@ -199,7 +192,7 @@ def _sweep_until_still(bodies, packed, motion, mobility, even, tolerance, most_s
     change = 0.0
     blocks = packed.shape[0]
     for sweep in range(most_sweeps):
-        changed, size = zeros_of(packed), zeros_of(packed)
+        changed, size = zeros(), zeros()
         for n in range(blocks):
             block = n if sweep % 2 == 0 else blocks - 1 - n
             i, j = gather(motion, bodies, block, 0), gather(motion, bodies, block, 1)

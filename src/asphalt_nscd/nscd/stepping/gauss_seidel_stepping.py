@@ -15,9 +15,6 @@ from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.condensed import CondensedState
 
-COARSE = 1e-6
-"""A relative change in a sweep that single precision resolves, in 0.6 of the time; finer ones need double."""
-
 
 class SweepingStepper:
     """Steps the full system by Gauss-Seidel, `dt` in s; bonds do not break and gaps are not watched."""
@@ -37,10 +34,7 @@ class SweepingStepper:
         self._inverse_mass[system.driven] = 0.0  # no reaction moves what is driven
         self._column = system.operator[:, [system.driven]]
         self._bonds = PackedBonds(
-            system.operator,
-            dt * self._inverse_mass,
-            self.law.compliance / system.weight,
-            np.float32 if tolerance >= COARSE else np.float64,
+            system.operator, dt * self._inverse_mass, self.law.compliance / system.weight
         )
         self.sweeps = 0
         self.largest_change = 0.0
