@@ -11,8 +11,8 @@ from asphalt_nscd.forecasting.recipe import recipe_of
 from asphalt_nscd.forecasting.rivals import mori_tanaka
 from asphalt_nscd.forecasting.static_map import RATIOS, fit_map
 from asphalt_nscd.forecasting.written import law_of_mix, points, summary
-from asphalt_nscd.nscd.bonds.statics import Statics
-from asphalt_nscd.specimen.prism import pulled_system, static_motion, stretched
+from asphalt_nscd.nscd.bonds.statics import Statics, static_motion
+from asphalt_nscd.specimen.prism import pulled_system, stretched
 
 BULK = 2.5e9
 

@@ -12,11 +12,11 @@ from asphalt_nscd.bending.model import SHAPE, model_of
 from asphalt_nscd.files.ranges import Ranged, one_of, within
 from asphalt_nscd.files.store import Record, save
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
+from asphalt_nscd.nscd.bonds.statics import static_stiffness
 from asphalt_nscd.nscd.stepping.break_modes import BONDS, StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.specimen.contents import Content
 from asphalt_nscd.specimen.cutting import read_specimen
-from asphalt_nscd.specimen.prism import stiffness
 from asphalt_nscd.specimen.system import HEADS, bending_system
 from asphalt_nscd.specimen.trimming import Specimen
 
@@ -81,7 +81,7 @@ def condense(
     if excerpt_output is not None:
         write_excerpt(excerpt_output, model, digest)
     # column 0 of the basis is the static motion of the head
-    static = specimen.geometry.form_factor() * stiffness(model.system, arrays["basis"][:, 0])
+    static = specimen.geometry.form_factor() * static_stiffness(model.system, arrays["basis"][:, 0])
     return int(arrays["mass"].size), static, specimen.area
 
 

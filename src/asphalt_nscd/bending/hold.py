@@ -15,10 +15,10 @@ from asphalt_nscd.bending.taring import soft_clamp, tared
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.ranges import Ranged, within
 from asphalt_nscd.nscd.bonds.head import HeadDevices
+from asphalt_nscd.nscd.bonds.statics import static_stiffness
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import of_chain
-from asphalt_nscd.specimen.prism import stiffness
 
 COARSE = 0.05  # of the law: an error at the end that is told
 MOST_BROKEN = 0.02  # of the bonds; beyond, the specimen no longer follows its law
@@ -120,7 +120,7 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     else:
         table["E_MPa"], table["E_law_MPa"] = modulus / 1e6, of_chain(chain).relaxation_modulus(times) / 1e6
     # bonds of one law show that law times a constant of statics, whose motion is column 0 of the basis
-    constant = geometry.form_factor() * stiffness(model.system, model.basis[:, 0])
+    constant = geometry.form_factor() * static_stiffness(model.system, model.basis[:, 0])
     shown = float(table.iloc[-1, 3] / table.iloc[-1, 4])
     off = abs((shown / constant if held.force_N is None else shown * constant) - 1.0)
     table.attrs = {"specimen": model.name, "broken_bonds": len(run.broken), "residual": run.residual}

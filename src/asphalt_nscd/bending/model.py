@@ -18,9 +18,9 @@ from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.geometry import shape_of
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
+from asphalt_nscd.nscd.bonds.statics import static_factor
 from asphalt_nscd.nscd.bonds.system import BondedSystem, clusters
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
-from asphalt_nscd.nscd.stepping.harmonic import static_factor
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel
 
 SHAPE = "shape/"
@@ -93,7 +93,7 @@ class Model:
     @cached_property
     def static_factor(self) -> SuperLU | Multigrid:
         """For steady oscillation, whatever its frequency."""
-        return static_factor(self.system)
+        return static_factor(self.system, self.system.weight)
 
     @cached_property
     def layers(self) -> Layers:

@@ -8,7 +8,7 @@ import numpy as np
 
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.nscd.bonds.implicit_operator import factorise
+from asphalt_nscd.nscd.bonds.statics import static_motion, static_stiffness
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
 from asphalt_nscd.specimen.network import Network
 from asphalt_nscd.specimen.trimming import Specimen, held
@@ -83,26 +83,10 @@ def stretched(prism: Specimen, system: BondedSystem, motion: np.ndarray) -> tupl
     middle = np.abs(prism.position[:, 2] - geometry.h / 2) < MEASURED * geometry.h / 2
     along = motion[: 6 * n].reshape(n, 6)[middle, :3]
     strain = [np.polyfit(prism.position[middle, k], along[:, k], 1)[0] for k in range(3)]
-    stress = stiffness(system, motion) / (geometry.width * geometry.thickness)
+    stress = static_stiffness(system, motion) / (geometry.width * geometry.thickness)
     return stress / strain[2], -(strain[0] + strain[1]) / (2.0 * strain[2])
-
-
-def static_motion(system: BondedSystem) -> np.ndarray:
-    """Static displacements (d,) of a system whose driven degree of freedom moves by one."""
-    free, k = system.free, system.stiffness()
-    matrix, coupling = k[free][:, free].tocsc(), k[free][:, [system.driven]].toarray()[:, 0]
-    factor, motion = factorise(matrix, system), np.ones(system.mass.size)
-    motion[free] = -factor.solve(coupling)
-    motion[free] -= factor.solve(matrix @ motion[free] + coupling)  # digits lost where films are soft
-    return motion
 
 
 def static_ratio(system: BondedSystem, shape: Shape) -> float:
     """c: static |E*| of a test by its form factor, over the modulus of the bonds."""
-    return shape.form_factor() * stiffness(system, static_motion(system))
-
-
-def stiffness(system: BondedSystem, motion: np.ndarray) -> float:
-    """Static stiffness per unit modulus [m]: twice the energy of `motion` (d,) of unit head displacement."""
-    opening = system.operator @ motion
-    return float(system.weight @ opening**2)
+    return shape.form_factor() * static_stiffness(system, static_motion(system))

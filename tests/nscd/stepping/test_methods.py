@@ -8,6 +8,7 @@ import pytest
 from asphalt_nscd.measurements.signals import harmonic_response
 from asphalt_nscd.nscd.bonds.implicit_operator import factors
 from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.statics import static_factor
 from asphalt_nscd.nscd.stepping import harmonic
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
@@ -100,7 +101,7 @@ def test_frequency_domain_by_static_factors_or_by_those_of_the_frequency(beam_sy
     dense = modulus * beam_system.stiffness().toarray() - omega**2 * np.diag(beam_system.mass)
     motion = np.linalg.solve(dense[np.ix_(free, free)], -dense[free, driven])
     expected = dense[driven, driven] + dense[driven, free] @ motion
-    static = harmonic.static_factor(beam_system)
+    static = static_factor(beam_system, beam_system.weight)
     assert driving_force(beam_system, modulus, omega, static=static) == pytest.approx(expected, rel=1e-11)
     assert len(factorised) == (most == 1)
 

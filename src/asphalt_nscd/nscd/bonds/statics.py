@@ -9,6 +9,26 @@ from asphalt_nscd.nscd.bonds.implicit_operator import factorise
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 
+EXACT = 1e-13  # residual of one static solution, relative
+MOST_ITERATIONS = 50  # of it, on factors of its own: two or three serve
+
+
+def static_factor(system: BondedSystem, weight: np.ndarray) -> SuperLU | Multigrid:
+    """What solves the stiffness of bonds of `weight` (3 b,) [m] on the free degrees of freedom."""
+    free = system.free
+    return factorise(system.stiffness(weight)[free][:, free].tocsc(), system)
+
+
+def static_motion(system: BondedSystem) -> np.ndarray:
+    """Static displacements (d,) of a system whose driven degree of freedom moves by one."""
+    return Statics(system, EXACT, MOST_ITERATIONS, MOST_ITERATIONS).motion(system.weight)
+
+
+def static_stiffness(system: BondedSystem, motion: np.ndarray) -> float:
+    """Static stiffness per unit modulus [m]: twice the energy of `motion` (d,) of unit head displacement."""
+    opening = system.operator @ motion
+    return float(system.weight @ opening**2)
+
 
 class Statics:
     """Static motion of a system per unit of its driven degree of freedom, each solution begun from the last.
@@ -32,11 +52,10 @@ class Statics:
 
         ArithmeticError where no solution is found.
         """
-        system, free = self.system, self.system.free
         # on the factors of other weights, if there are any; should they fail, once more on new ones
         for last in (self._factor is None, True):
             if self._factor is None:
-                self._factor = factorise(system.stiffness(weight)[free][:, free].tocsc(), system)
+                self._factor = static_factor(self.system, weight)
             iterations, failed = self._solve(weight, self._factor)
             if failed or iterations > self._enough:
                 self._factor = None

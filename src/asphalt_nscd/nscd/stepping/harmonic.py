@@ -7,23 +7,14 @@ from scipy import sparse
 from scipy.sparse.linalg import LinearOperator, SuperLU, gmres
 
 from asphalt_nscd.nscd.bonds.head import HeadDevices
-from asphalt_nscd.nscd.bonds.implicit_operator import factorise, factors
+from asphalt_nscd.nscd.bonds.implicit_operator import factors
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
+from asphalt_nscd.nscd.bonds.statics import static_factor
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 
 TOLERANCE = 1e-13  # of the equations times K^-1, relative to the static motion
 MOST_ITERATIONS = 100  # a specimen takes a dozen, near its resonance too
 MOST_STARTS = 3  # again from what was found: rounding within one start may leave more than the tolerance
-
-
-def static_factor(system: BondedSystem, modulus: complex | np.ndarray = 1.0) -> SuperLU | Multigrid:
-    """What solves K on the free degrees of freedom for all frequencies and moduli.
-
-    With a `modulus` (3 b,) for each component of the bonds, for these alone.
-    """
-    # real, as factors are: of each bond the size of its modulus; losses are left to the iteration
-    free, size = system.free, np.abs(modulus) / abs(np.mean(modulus))
-    return factorise(system.stiffness(system.weight * size)[free][:, free], system)
 
 
 def driving_force(
@@ -37,12 +28,14 @@ def driving_force(
 
     Solves (G^T E* w G - omega^2 M) u = 0 with the driven degree of freedom at one, without damping other than that of
     the complex modulus E* [Pa], one for all bonds or for each of their components (3 b,). `acceleration_factor`
-    replaces -omega^2, e.g. by that of a time-stepping scheme; `static` is the `static_factor` of these moduli, where it
-    is known already.
+    replaces -omega^2, e.g. by that of a time-stepping scheme; `static` solves the stiffness of bonds weighted by the
+    sizes of these moduli, where that is known already (`static_factor`).
     """
     factor = -(omega**2) if acceleration_factor is None else acceleration_factor
-    static = static_factor(system, modulus) if static is None else static
     mean = complex(np.mean(modulus))
+    if static is None:
+        # real, as factors are: of each bond the size of its modulus; losses are left to the iteration
+        static = static_factor(system, system.weight * (np.abs(modulus) / abs(mean)))
     # divided by the mean modulus, the system is real but for inertia and scatter of moduli, and static
     # factors serve all frequencies
     inertia = factor / mean * system.mass
