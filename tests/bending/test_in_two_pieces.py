@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from asphalt_nscd.bending import runs
 from asphalt_nscd.bending.bending_test import run_test
 from asphalt_nscd.bending.case import LoadCase, Numerics
 from asphalt_nscd.bending.condensing import Bonds, condensed
@@ -14,6 +15,8 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.twopoint import Geometry
+from asphalt_nscd.nscd.bonds.head import HeadDevices
+from asphalt_nscd.nscd.stepping.condensed import CondensedState
 from asphalt_nscd.verification.specimens import QUICK_LAW
 
 
@@ -39,10 +42,23 @@ def test_all_bonds_across_a_section_and_no_fewer_part_it(make_beam, test, share)
         beam.require_whole(across)
 
 
+def test_a_test_ends_once_a_fifth_of_the_bonds_broke_though_it_is_whole(make_beam):
+    beam = model(make_beam, Beam.test)
+    full = runs._full_stepper(
+        beam, QUICK_LAW, 5e-4, CondensedState.at_rest(beam.system, QUICK_LAW), HeadDevices()
+    )
+    every_sixth = list(range(0, beam.bonds, 6))
+    full.on_break(every_sixth)
+    more = sorted({*every_sixth, *range(1, beam.bonds, 12)})
+    beam.require_whole(more)
+    with pytest.raises(InputError, match=rf"the specimen fails, {len(more)} of {beam.bonds} bonds broke"):
+        full.on_break(more)
+
+
 @pytest.mark.parametrize("method", ["reduced", "condensed"])
 @pytest.mark.parametrize("clamp", [0.0, 1e-8])
 def test_a_test_that_breaks_all_bonds_ends(make_beam, method, clamp):
     beam = model(make_beam, yield_Pa=7.5)
     case = LoadCase(40.0, 2e-5, cycles=1.0, rig=Rig(clamp_compliance=clamp))
-    with pytest.raises(InputError, match="in two pieces"):
+    with pytest.raises(InputError, match="in two pieces|the specimen fails"):
         run_test(beam, QUICK_LAW, case, Numerics(time_step=5e-4, method=method))

@@ -330,8 +330,7 @@ def numerics(tests: pd.DataFrame, table: pd.DataFrame, stopped: pd.DataFrame) ->
         "of the solved |E*|, sweeps until reactions change by less than a tolerance",
         LEFT_OPEN,
         f"The tolerance is not given, and the result is that of the tolerance: {_by_tolerance(swept)}. On a specimen "
-        f"of {int(swept['spheres'].iloc[0])} spheres, on which sweeps converge sooner than on the paper's; swept in "
-        "single precision, whose rounding is far below the tolerances.",
+        f"of {int(swept['spheres'].iloc[0])} spheres, on which sweeps converge sooner than on the paper's.",
         "A tolerance in the paper.",
     )
     yield Judgement(
