@@ -48,7 +48,9 @@ def mass(count: int) -> np.ndarray:
 
 def world(position, bonds, around=FLOOR, dt=4e-4, law=LAW, velocity=None) -> World:
     n = len(position)
-    return World(position, np.full(n, RADIUS), mass(n), bonds, law, around, dt, velocity)
+    made = World(position, np.full(n, RADIUS), mass(n), bonds, law, around, dt)
+    made.throw(np.zeros((n, 6)) if velocity is None else velocity)
+    return made
 
 
 def spinning(position, omega) -> np.ndarray:

@@ -77,7 +77,7 @@ class World:
     """Spheres (n,), some of them bonded, which advance by steps of `dt` [s].
 
     `position` (n, 3) and `radius` (n,) in m; `mass` (n, 6) of translations [kg] and rotations [kg m2]. Rotations are
-    those since the beginning. What the first `velocity` (n, 6) [m/s, rad/s] holds enters the account as work done.
+    those since the beginning.
     """
 
     def __init__(
@@ -89,18 +89,16 @@ class World:
         law: AnyLaw,
         around: Surroundings,
         dt: float,
-        velocity: np.ndarray | None = None,
     ) -> None:
         """position (n, 3) [m], radius (n,) [m]; mass (n, 6) [kg, kg m2] of translations and rotations."""
         self.position, self.radius, self.mass = position.copy(), radius, mass.ravel()
         self.bonds, self.law, self.around, self.dt = bonds, law, around, dt
         self.rotation = Rotation.from_quat(np.tile([0.0, 0.0, 0.0, 1.0], (radius.size, 1)))
-        self.velocity = np.zeros(self.mass.size) if velocity is None else velocity.ravel().copy()
+        self.velocity = np.zeros(self.mass.size)
         self.sigma = np.zeros(bonds.weight.size)
         self.kelvin = np.zeros((len(law.kelvin_springs), bonds.weight.size))
         self.broken = np.zeros(bonds.first.size, bool)
-        moving = 0.5 * float(self.mass @ self.velocity**2)
-        self.energies = Energies(actuator=moving, kinetic=moving)
+        self.energies = Energies()
         self.time = 0.0
         self._arms = tuple(bonds.point - position[body] for body in (bonds.first, bonds.second))
         self._step_law = law.step(dt)
@@ -114,6 +112,11 @@ class World:
     def opening(self) -> np.ndarray:
         """U (3 b,) [m] of the bonds since the beginning, in axes that turn with them."""
         return self._openings(self.position, self.rotation)[0]
+
+    def throw(self, velocity: np.ndarray) -> None:
+        """Set all at rest in motion at a `velocity` (n, 6) [m/s, rad/s]; the account takes it as work done."""
+        self.velocity = velocity.ravel().copy()
+        self.energies.actuator = self.energies.kinetic = 0.5 * float(self.mass @ self.velocity**2)
 
     def cut(self, bonds: np.ndarray) -> None:
         """Break the bonds marked in `bonds` (b,) as with a saw: what they store is lost."""
