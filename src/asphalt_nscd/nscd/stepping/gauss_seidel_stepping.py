@@ -4,6 +4,7 @@ Each bond in turn takes the reaction that satisfies its affine law with all othe
 equations (S/w + dt G_b M^-1 G_b^T) R = b - u_rest. Velocities are updated at once. For bonds as
 stiff as these (dt^2 K/m of a thousand and more) the change per sweep is small long before the
 solution is reached, so a criterion on that change stops far from it.
+In double precision: single takes 0.8 of the time, and its rounding changed |E*| by up to 0.7 % at a change of 1e-5.
 """
 
 from __future__ import annotations
