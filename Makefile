@@ -63,7 +63,7 @@ attack: $(READY)
 study: $(READY)
 	@.venv/bin/snakemake --logger steps --cores $(CORES) --configfile $(CONFIG)
 
-verify: $(READY)
+verify: $(TOOLS)
 	@.venv/bin/snakemake --logger steps --cores $(CORES) verify
 	@echo "Table: $(CURDIR)/results/verification/verification.csv"
 

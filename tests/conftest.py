@@ -10,11 +10,12 @@ import pytest
 # Before numpy is loaded. Tests run side by side: more threads of BLAS only wait for each other.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+from theory.specimens import QUICK_LAW, jittered_beam
+
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
-from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
 
 
 @pytest.fixture(scope="session")

@@ -3,14 +3,16 @@
     PYTHONPATH=trials python -m mutants [WORDS] [--output results/mutants]
 
 `mutants.csv` lists them: what is wrong, `right` made `wrong` in a file of the package, and the tests that must notice.
-`asphalt-nscd verify mutations` does the same to the equations of the core.
+Those of equations of the core name a theme of `tests/theory`: `python -m mutants theory/` tries these.
 """
 
 from __future__ import annotations
 
 import hashlib
 import os
+import resource
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -25,6 +27,7 @@ from asphalt_nscd.files.store import provenance, write_json, write_table
 
 ROOT = Path(__file__).parents[1]
 PACKAGE = "src/asphalt_nscd"
+LONGEST = 1800  # s of CPU for the tests of a file: many times what they need, so that more means without end
 MUTANTS = list(pd.read_csv(Path(__file__).with_suffix(".csv"), keep_default_na=False).itertuples(index=False))
 
 
@@ -53,7 +56,11 @@ class Copy:
             f"tests/{tests}",
         ]
         environment = os.environ | {"PYTHONPATH": str(self.folder / "src")}
-        done = subprocess.run(command, cwd=self.folder, env=environment, capture_output=True, text=True)
+        done = subprocess.run(
+            command, cwd=self.folder, env=environment, capture_output=True, text=True, preexec_fn=_limit
+        )
+        if done.returncode == -signal.SIGXCPU:
+            return f"tests/{tests} does not end"
         if done.returncode in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):
             return ""
         found = [line for line in done.stdout.splitlines() if line.startswith(("FAILED", "ERROR tests"))]
@@ -76,6 +83,10 @@ class Copy:
             if found:
                 return found
         return ""
+
+
+def _limit() -> None:
+    resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST + 9))
 
 
 def summary(table: pd.DataFrame) -> pd.DataFrame:
@@ -113,8 +124,8 @@ def earlier(path: Path) -> dict[str, str]:
     "sources and tests, is not tried again; one that is not tried now keeps its row.",
 )
 def main(words: tuple[str, ...], output: Path | None) -> None:
-    """Try the mutants, or those of which WORDS say something."""
-    chosen = [one for one in MUTANTS if not words or any(word in one.what + one.file for word in words)]
+    """Try the mutants, or those whose line in the list holds one of WORDS."""
+    chosen = [one for one in MUTANTS if not words or any(word in " ".join(one) for word in words)]
     judged = {} if output is None else earlier(output / "mutants.csv")
     digests = [sources(mutant) for mutant in chosen]
     with tempfile.TemporaryDirectory() as name:

@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pandas as pd
 import pytest
+from theory.specimens import QUICK_LAW, jittered_beam
 
 import asphalt_nscd as an
 from asphalt_nscd.bending.condensing import Bonds
@@ -14,7 +15,6 @@ from asphalt_nscd.bending.fall import Fall, fell, released
 from asphalt_nscd.cli import main
 from asphalt_nscd.files.store import load, save
 from asphalt_nscd.measurements.fourpoint import Beam
-from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
 
 
 @pytest.fixture(scope="module")

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from click.testing import CliRunner
+from theory.specimens import jittered_beam
 
 import asphalt_nscd as an
 from asphalt_nscd.bending.bending_test import bond_law, run_test
@@ -23,7 +24,6 @@ from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.laws_io import write_law
 from asphalt_nscd.specimen.prism import static_ratio
-from asphalt_nscd.verification.specimens import jittered_beam
 
 QUICK = Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9)  # transients of milliseconds
 CONTENT = condensed(jittered_beam(shape=(3, 2, 13), area="facets", test=Beam.test), "prism", Bonds())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from theory.specimens import QUICK_LAW
 
 from asphalt_nscd.bending.bending_test import run_test
 from asphalt_nscd.bending.case import LoadCase, Numerics
@@ -14,7 +15,6 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.verification.specimens import QUICK_LAW
 
 
 def model(make_beam, test: str = Geometry.test, **bonds: float) -> Model:

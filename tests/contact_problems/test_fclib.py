@@ -7,11 +7,11 @@ import numpy as np
 import pandas as pd
 import pytest
 from scipy import sparse
+from theory.assemblies import block_on_slope, box_stack
 
 from asphalt_nscd import cli
 from asphalt_nscd.contact_problems.fclib import read_problem
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.verification.assemblies import block_on_slope, box_stack
 
 
 def stored(W, storage):

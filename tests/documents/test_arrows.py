@@ -28,10 +28,6 @@ ARROWS = {
     "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "forecasting", "diagnosis"],
     "study": ["files", "measurements", "rheology", "specimen", "packings", "reporting"],
     "table_import": ["files", "measurements", "study", "reporting"],
-    "verification": [
-        "files", "workflow_support", "measurements", "nscd", "contact_problems", "rheology", "specimen", "bending",
-        "forecasting",
-    ],
     "api": [
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
         "table_import", "packings", "forecasting",
@@ -39,7 +35,7 @@ ARROWS = {
     "web": ["files", "measurements", "diagnosis", "exports", "reporting", "table_import", "api"],
     "cli": [
         "files", "measurements", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
-        "study", "table_import", "verification", "nscd", "api", "contact_problems", "forecasting", "web",
+        "study", "table_import", "nscd", "api", "contact_problems", "forecasting", "web",
     ],
 }  # fmt: skip
 # The rooms of the diagnosis likewise. All may import `criteria` and `written`; `run` imports from all.

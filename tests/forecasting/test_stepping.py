@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from theory.specimens import jittered_beam
 
 from asphalt_nscd.forecasting.stepping import fit_bonds, harmonic_stiffness, step_test
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.specimen.system import bending_system
-from asphalt_nscd.verification.specimens import jittered_beam
 
 MATRIX = TwoS2P1D(1e6, 8e9, k=0.2, h=0.6, delta=2.0, tau=2e-3, beta=100.0, shift=WLF(20.0, 150.0, 15.0))
 GRAIN = 60e9

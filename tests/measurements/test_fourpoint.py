@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.integrate import quad, solve_bvp
+from theory.specimens import jittered_beam
 
 import asphalt_nscd as an
 from asphalt_nscd.files.errors import InputError
@@ -13,7 +14,6 @@ from asphalt_nscd.measurements.geometry import read_shape, require_within, shape
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.specimen.network import region_of
 from asphalt_nscd.specimen.system import bending_system
-from asphalt_nscd.verification.specimens import jittered_beam
 
 T321 = {"L_mm": 357.0, "H_mm": 50.0, "B_mm": 63.0, "mass_kg": 2.7, "mobile_mass_kg": 0.5}
 LAW = an.Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=3.71e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e9, temperature_C=15)

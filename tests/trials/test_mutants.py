@@ -6,7 +6,7 @@ import ast
 import builtins
 
 import pytest
-from mutants import MUTANTS, PACKAGE, ROOT
+from mutants import MUTANTS, PACKAGE, ROOT, Copy
 
 
 def unbound(text: str) -> set[str]:
@@ -25,3 +25,11 @@ def test_each_mutant_changes_its_file_once_and_has_its_tests(mutant):
     text = (ROOT / PACKAGE / mutant.file).read_text(encoding="utf-8")
     assert text.count(mutant.right) == 1 and not unbound(text.replace(mutant.right, mutant.wrong))
     assert mutant.right != mutant.wrong and (ROOT / "tests" / mutant.tests).is_file()
+
+
+@pytest.mark.slow
+def test_a_mutant_is_noticed_and_one_that_changes_nothing_is_not(tmp_path):
+    copy = Copy(tmp_path)
+    mutant = next(one for one in MUTANTS if one.tests == "theory/test_law.py")
+    assert copy.noticed(mutant).startswith(f"FAILED tests/{mutant.tests}")
+    assert copy.noticed(mutant._replace(wrong=f"{mutant.right} 0.0 +")) == ""

@@ -1,127 +1,45 @@
-# Is the core right? Apart from any study: `make verify`.
+# Is the core right? Apart from any study: `make verify`. Rows are computed by tests/theory.
 
-from asphalt_nscd.verification.study import MUTATIONS, THEMES
+THEORY = sorted((CLONE / "tests/theory").glob("*.py"))
+TESTED = sorted({name for file in THEORY for name in re.findall(r"from asphalt_nscd\.(\S+) import", file.read_text())})
 
 
-rule verify_theme:
-    # One theme of the verification.
+rule verify:
+    # The core against theory. Fails where a row has failed, which the log names.
     input:
-        code=code("verify", *modules_of("verification")),
+        tests=[os.path.relpath(path) for path in THEORY],
+        code=local(stamp(".snakemake/code", "theory", source_files(*TESTED)).as_posix()),
     output:
-        "results/verification/themes/{theme}.csv",
-    conda:
-        ENVIRONMENT
-    log:
-        "results/verification/logs/{theme}.log",
-    benchmark:
-        "results/verification/benchmarks/{theme}.tsv"
-    message:
-        "Verify the core: {wildcards.theme}"
-    shell:
-        "asphalt-nscd verify {wildcards.theme} --output {output} > {log} 2>&1"
-
-
-rule verification:
-    # All rows in one table, red ones too.
-    input:
-        tables=expand("results/verification/themes/{theme}.csv", theme=THEMES),
-        code=code("verdict"),
-    output:
-        "results/verification/verification.csv",
-    conda:
-        ENVIRONMENT
+        multiext("results/verification/", "verification.csv", "summary.csv", "provenance.json"),
+    threads: 4
     log:
         "results/verification/logs/verification.log",
     benchmark:
         "results/verification/benchmarks/verification.tsv"
     message:
-        "Collect the verification"
+        "Verify the core"
     shell:
-        "asphalt-nscd verdict {input.tables} --output {output} > {log} 2>&1"
+        "{sys.executable} -m pytest {CLONE}/tests/theory -n {threads} --dist loadfile --verification results/verification > {log} 2>&1"
 
 
-rule verify:
-    # Fails where a row has failed; the table stays.
-    input:
-        "results/verification/verification.csv",
-    conda:
-        ENVIRONMENT
+rule mutants:
+    # A wrong sign in the sources must turn a test red; hours. What was tried before stands. Only on request:
+    #   snakemake --cores 1 mutants
     log:
-        "results/verification/logs/verify.log",
-    benchmark:
-        "results/verification/benchmarks/verify.tsv"
+        "results/mutants/logs/mutants.log",
     message:
-        "Judge the verification"
+        "Try the mutants"
     shell:
-        "asphalt-nscd verdict {input} > {log} 2>&1"
-
-
-rule mutations:
-    # A wrong sign in an equation of the core must turn a row red; takes several times as long as the rows.
-    input:
-        f"results/verification/themes/{MUTATIONS}.csv",
-    conda:
-        ENVIRONMENT
-    log:
-        "results/verification/logs/judge_mutations.log",
-    benchmark:
-        "results/verification/benchmarks/judge_mutations.tsv"
-    message:
-        "Judge the mutants"
-    shell:
-        "asphalt-nscd verdict {input} > {log} 2>&1"
-
-
-rule verification_summary:
-    # One row for each theme, the mutants among them.
-    input:
-        tables=["results/verification/verification.csv", f"results/verification/themes/{MUTATIONS}.csv"],
-        code=code("verdict"),
-    output:
-        "results/verification/summary.csv",
-    conda:
-        ENVIRONMENT
-    log:
-        "results/verification/logs/summary.log",
-    benchmark:
-        "results/verification/benchmarks/summary.tsv"
-    message:
-        "Count the rows of the verification"
-    shell:
-        "asphalt-nscd verdict {input.tables} --summary --output {output} > {log} 2>&1"
-
-
-rule verification_provenance:
-    input:
-        "results/verification/summary.csv",
-        code=code("provenance"),
-    output:
-        "results/verification/provenance.json",
-    conda:
-        ENVIRONMENT
-    log:
-        "results/verification/logs/provenance.log",
-    benchmark:
-        "results/verification/benchmarks/provenance.tsv"
-    message:
-        "Write down what was verified"
-    shell:
-        "asphalt-nscd provenance --output {output} > {log} 2>&1"
+        "env PYTHONPATH={CLONE}/trials {sys.executable} -m mutants --output results/mutants > {log} 2>&1"
 
 
 rule publish_verification:
     # What is committed of the verification. Only on request:
     #   snakemake --cores 1 publish_verification
     input:
+        files=["results/verification/verification.csv", "results/verification/provenance.json"],
         summary="results/verification/summary.csv",
-        files=[
-            "results/verification/verification.csv",
-            f"results/verification/themes/{MUTATIONS}.csv",
-            "results/verification/provenance.json",
-        ],
         code=code("publish"),
-    conda:
-        ENVIRONMENT
     message:
         "Copy what is committed of the verification, and fill its table in docs"
     shell:

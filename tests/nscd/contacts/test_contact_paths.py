@@ -7,12 +7,12 @@ from itertools import islice
 import numpy as np
 import pytest
 from naive.friction import nearest_in_cone
+from theory.assemblies import box_stack, spheres_in_a_box
 
 from asphalt_nscd.nscd.contacts import interior
 from asphalt_nscd.nscd.contacts.newton import linearised, refine
 from asphalt_nscd.nscd.contacts.problem import ContactProblem
 from asphalt_nscd.nscd.contacts.proximal import proximal_points, softened
-from asphalt_nscd.verification.assemblies import box_stack, spheres_in_a_box
 
 
 def random_problem(seed, friction=0.5, contacts=8):

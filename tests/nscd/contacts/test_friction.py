@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from naive.friction import naive_contacts, naive_natural_map
 from scipy import sparse
-
-from asphalt_nscd.nscd import solve_contacts
-from asphalt_nscd.nscd.contacts.gauss_seidel import sweep_once
-from asphalt_nscd.nscd.contacts.problem import ContactProblem
-from asphalt_nscd.verification.assemblies import (
+from theory.assemblies import (
     GRAVITY_STEP,
     arch,
     block_on_slope,
     box_stack,
     spheres_in_a_box,
 )
+
+from asphalt_nscd.nscd import solve_contacts
+from asphalt_nscd.nscd.contacts.gauss_seidel import sweep_once
+from asphalt_nscd.nscd.contacts.problem import ContactProblem
 
 MASSES = np.diag([2.0, 7.0, 7.0])  # 1/kg, a ball of 0.5 kg on a plane
 

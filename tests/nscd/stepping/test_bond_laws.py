@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from naive.stepping import NaiveState, naive_step
+from theory.specimens import system_of
 
 from asphalt_nscd.nscd.bonds.head import HeadDevices
 from asphalt_nscd.nscd.bonds.law import BondLaw, BondLaws
@@ -18,7 +19,6 @@ from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.specimen.system import bending_system
-from asphalt_nscd.verification.specimens import system_of
 
 OMEGA = 80 * np.pi
 RIG = HeadDevices(1e-7, 1e4, 5.0, 0.2)

@@ -7,19 +7,17 @@ from itertools import islice
 from pathlib import Path
 
 import numpy as np
+import pytest
 
-from asphalt_nscd.contact_problems import fclib
+from asphalt_nscd.contact_problems.fclib import read_problem
 from asphalt_nscd.nscd import solve_contacts
 from asphalt_nscd.nscd.bonds.system import opening_operator
 from asphalt_nscd.nscd.contacts.interior import interior_path
 from asphalt_nscd.nscd.contacts.newton import refine
 from asphalt_nscd.nscd.contacts.problem import ContactProblem
 from asphalt_nscd.nscd.contacts.proximal import softened
-from asphalt_nscd.verification import assemblies
-from asphalt_nscd.verification.contacts import UPRIGHT, G
-from asphalt_nscd.verification.row import Checks, Row
-
-checks = Checks()
+from theory import assemblies
+from theory.test_contacts import UPRIGHT, G
 
 TOLERANCE = 1e-8
 APART = "de Saxce's form, computed apart"
@@ -90,18 +88,15 @@ def natural_map(w: np.ndarray, q: np.ndarray, mu: float, r: np.ndarray) -> float
     return float(np.linalg.norm(misses) / np.linalg.norm(sizes))
 
 
-@checks
-def stacks() -> list[Row]:
-    rows = []
+def test_stacks(row):
     for name, shape, across in (("a wall of four rows of bricks", 4, 4), ("a tower of ten bricks", 10, 1)):
         w, q = wall(shape, across)
         solution = solve_contacts(w, q, 0.6, tolerance=1e-8)
         error = natural_map(w, q, 0.6, solution.reactions)
-        rows.append(Row(f"{name}, error of the natural map", 0.0, error, TOLERANCE, APART))
+        row(f"{name}, error of the natural map", 0.0, error, TOLERANCE, APART)
         # the lowest bricks come first, with four contacts each
         ground = solution.reactions[::3][: 4 * across].sum() / (shape * across * 2.0 * G * 1e-3)
-        rows.append(Row(f"{name}, force on the ground over its weight", 1.0, ground, 1e-6, "equilibrium"))
-    return rows
+        row(f"{name}, force on the ground over its weight", 1.0, ground, 1e-6, "equilibrium")
 
 
 def twenty(seed: int) -> tuple[np.ndarray, np.ndarray]:
@@ -114,18 +109,16 @@ def twenty(seed: int) -> tuple[np.ndarray, np.ndarray]:
     return jacobian @ jacobian.T / 66 + 0.2 * np.eye(60), q
 
 
-@checks
-def generated() -> Row:
+def test_generated(row):
     """The worst of ten problems."""
     worst = 0.0
     for seed in range(10):
         w, q = twenty(seed)
         worst = max(worst, natural_map(w, q, 0.7, solve_contacts(w, q, 0.7, tolerance=1e-10).reactions))
-    return Row("twenty coupled contacts, error of the natural map", 0.0, worst, 1e-9, APART)
+    row("twenty coupled contacts, error of the natural map", 0.0, worst, 1e-9, APART)
 
 
-@checks
-def each_alone() -> list[Row]:
+def test_each_alone(row):
     """Each method by itself, for another would finish what a wrong one leaves."""
     (w, q), mu = twenty(0), 0.7
     problem = ContactProblem.of(w, q, mu)
@@ -146,16 +139,12 @@ def each_alone() -> list[Row]:
             1e-12,
         ),
     }
-    return [
-        Row(f"{name}, error of the natural map", 0.0, error, tolerance, APART)
-        for name, (error, tolerance) in found.items()
-    ]
+    for name, (error, tolerance) in found.items():
+        row(f"{name}, error of the natural map", 0.0, error, tolerance, APART)
 
 
-@checks
-def hyperstatic() -> list[Row]:
+def test_hyperstatic(row):
     """More contacts than the bodies need: plain Gauss-Seidel stalls on all of these."""
-    rows = []
     for name, pile, mu in (
         ("twenty boxes with nine contacts at each face", assemblies.box_stack(20, kick=1e-2), 0.5),
         ("twenty slender boxes", assemblies.box_stack(20, 2, size=(0.3, 0.3, 2.0)), 0.3),
@@ -165,32 +154,23 @@ def hyperstatic() -> list[Row]:
     ):
         solution = solve_contacts(pile.W, pile.q, mu, tolerance=TOLERANCE)
         error = natural_map(pile.W.toarray(), pile.q, mu, solution.reactions)
-        rows.append(Row(f"{name}, error of the natural map", 0.0, error, TOLERANCE, APART))
-    return rows
+        row(f"{name}, error of the natural map", 0.0, error, TOLERANCE, APART)
 
 
-@checks
-def unsolved() -> list[Row]:
+def test_unsolved(row):
     """What is no solution must not be called one."""
     pile = assemblies.box_stack(8, kick=1e-2)
     stopped = solve_contacts(pile.W, pile.q, 0.5, TOLERANCE, most_sweeps=3, most_steps=0)
     immovable = solve_contacts(np.zeros((3, 3)), [-1.0, 0.0, 0.0], 0.5, TOLERANCE)
-    return [
-        Row("stopped after three sweeps, called converged", 0.0, float(stopped.converged), 0.0, APART),
-        Row("a problem without solution, called converged", 0.0, float(immovable.converged), 0.0, "u_n < 0"),
-    ]
+    row("stopped after three sweeps, called converged", 0.0, float(stopped.converged), 0.0, APART)
+    row("a problem without solution, called converged", 0.0, float(immovable.converged), 0.0, "u_n < 0")
 
 
-@checks
-def files() -> list[Row]:
+@pytest.mark.skipif("ASPHALT_NSCD_FCLIB" not in os.environ, reason="needs a folder of FCLIB")
+def test_files(row):
     """FCLIB problems, which are not part of the repository: those in the folder $ASPHALT_NSCD_FCLIB."""
-    folder = os.environ.get("ASPHALT_NSCD_FCLIB")
-    rows = []
-    for file in sorted(Path(folder).glob("*.hdf5")) if folder else []:
-        problem = fclib.read_problem(file)
+    for file in sorted(Path(os.environ["ASPHALT_NSCD_FCLIB"]).glob("*.hdf5")):
+        problem = read_problem(file)
         solution = solve_contacts(problem.W, problem.q, problem.mu, TOLERANCE)
         error = max(solution.error, solution.scaled_error)
-        rows.append(
-            Row(f"FCLIB {file.stem}, error of the natural map", 0.0, error, TOLERANCE, "as Siconos's")
-        )
-    return rows
+        row(f"FCLIB {file.stem}, error of the natural map", 0.0, error, TOLERANCE, "as Siconos's")

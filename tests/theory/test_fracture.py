@@ -20,12 +20,9 @@ from asphalt_nscd.nscd.stepping.integrator import March
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import History, Scheme
-from asphalt_nscd.verification.accounts import ACCOUNT
-from asphalt_nscd.verification.methods import beam
-from asphalt_nscd.verification.row import Checks, Row
-from asphalt_nscd.verification.specimens import QUICK_LAW
-
-checks = Checks()
+from theory.specimens import QUICK_LAW
+from theory.test_accounts import ACCOUNT
+from theory.test_methods import beam
 
 BREAKS = 100
 DT, PERIOD = 5e-5, 20  # s; steps in a cycle
@@ -118,9 +115,7 @@ def sum_apart(run: Run, march: March, before: History, new: list[int]) -> None:
     run.numerical += 0.5 * float(specimen().mass @ (now["velocity"] - then["velocity"]) ** 2)
 
 
-@checks
-def reduced_against_full() -> list[Row]:
-    rows = []
+def test_reduced_against_full(row):
     for what, name, most in (
         ("reduced all the way", "euler", NO_LIMIT),
         ("reduced, then full", "euler", 30),
@@ -136,18 +131,13 @@ def reduced_against_full() -> list[Row]:
         difference = np.abs(np.subtract(full.force[:steps], reduced.force[:steps])).max()
         difference /= np.abs(full.force).max()
         source = "full system, bonds condensed"
-        rows += [
-            Row(f"{what}: first breaks alike and in order", BREAKS, alike, ALIKE, source),
-            Row(f"{what}: reaction over its largest", 0.0, difference, FORCE, source),
-        ]
+        row(f"{what}: first breaks alike and in order", BREAKS, alike, ALIKE, source)
+        row(f"{what}: reaction over its largest", 0.0, difference, FORCE, source)
     all_the_way = fractured("reduced", "euler", NO_LIMIT).full_steps
-    rows.append(Row("reduced all the way: steps of the full system", 0, all_the_way, 0.0, "none needed"))
-    return rows
+    row("reduced all the way: steps of the full system", 0, all_the_way, 0.0, "none needed")
 
 
-@checks
-def energy() -> list[Row]:
-    rows = []
+def test_energy(row):
     for method, name, most in (
         ("full", "euler", 30),
         ("reduced", "euler", NO_LIMIT),
@@ -157,14 +147,11 @@ def energy() -> list[Row]:
         run = fractured(method, name, most)
         assert run.energies is not None
         error = run.error / run.energies.actuator
-        rows.append(Row(f"energy account of the fracture, {method}, {name}", 0.0, error, CLOSES, ACCOUNT))
+        row(f"energy account of the fracture, {method}, {name}", 0.0, error, CLOSES, ACCOUNT)
     run = fractured("full", "euler")
     assert run.energies is not None
     sums, work = run.energies, run.energies.actuator
     stores, changes = "stores of each bond before it broke", "half the squares of the changes in each step"
     fracture, numerical = run.fracture / work, run.numerical / work
-    return [
-        *rows,
-        Row("energy released by fracture over the work", fracture, sums.fracture / work, 1e-9, stores),
-        Row("numerical dissipation over the work", numerical, sums.numerical / work, 1e-9, changes),
-    ]
+    row("energy released by fracture over the work", fracture, sums.fracture / work, 1e-9, stores)
+    row("numerical dissipation over the work", numerical, sums.numerical / work, 1e-9, changes)

@@ -17,10 +17,8 @@ from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.specimen.system import bending_system
-from asphalt_nscd.verification.row import Checks, Row, order
-from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam, mixed
-
-checks = Checks()
+from theory.rows import order
+from theory.specimens import QUICK_LAW, jittered_beam, mixed
 
 FREQUENCY, OMEGA = 40.0, 80 * np.pi
 # of two spheres across, and soft enough for Gauss-Seidel to converge
@@ -67,37 +65,28 @@ def of_the_law() -> complex:
     return driving_force(beam(), QUICK_LAW.discrete_modulus(OMEGA, 0.0), OMEGA)
 
 
-@checks
-def stepping_against_frequency_domain() -> list[Row]:
+def test_stepping_against_frequency_domain(row):
     dt = 1 / FREQUENCY / 200
     rate = (1 - np.exp(-1j * OMEGA * dt)) / dt
     exact = driving_force(beam(), QUICK_LAW.discrete_modulus(OMEGA, dt), OMEGA, rate**2)
-    rows, phase, source = [], np.angle(exact), "(E* K - omega^2 M) u = f of the scheme"
+    phase, source = np.angle(exact), "(E* K - omega^2 M) u = f of the scheme"
     for method in ("condensed", "reduced"):
         found = stepped(method, "euler", 200)
-        rows += [
-            Row(f"{method}, |F/z| of implicit Euler", abs(exact), abs(found), 1e-7, source),
-            Row(f"{method}, phase of implicit Euler (rad)", phase, np.angle(found), 1e-7, "the same"),
-        ]
-    return rows
+        row(f"{method}, |F/z| of implicit Euler", abs(exact), abs(found), 1e-7, source)
+        row(f"{method}, phase of implicit Euler (rad)", phase, np.angle(found), 1e-7, "the same")
 
 
-@checks
-def fitted_scheme() -> list[Row]:
-    exact, rows, source = of_the_law(), [], "exact law on the same specimen"
+def test_fitted_scheme(row):
+    exact, source = of_the_law(), "exact law on the same specimen"
     when = "100 steps a cycle, fitted scheme"
     for method in ("condensed", "reduced"):
         found = stepped(method, "fitted", 100)
         angle = np.degrees(np.angle(found / exact))
-        rows += [
-            Row(f"{method}, |E*| at {when}", 1.0, abs(found / exact), 1e-4, source),
-            Row(f"{method}, phase at {when} (deg)", 0.0, angle, 0.01, source),
-        ]
-    return rows
+        row(f"{method}, |E*| at {when}", 1.0, abs(found / exact), 1e-4, source)
+        row(f"{method}, phase at {when} (deg)", 0.0, angle, 0.01, source)
 
 
-@checks
-def order_in_dt() -> list[Row]:
+def test_order_in_dt(row):
     exact, source = of_the_law(), "against the frequency domain"
     euler = [abs(stepped("reduced", "euler", steps) - exact) for steps in (200, 400)]
 
@@ -110,14 +99,11 @@ def order_in_dt() -> list[Row]:
 
     reference = pulse(1024)
     fitted = [abs(pulse(steps) - reference) for steps in (64, 128)]
-    return [
-        Row("bending, order in dt of implicit Euler", 1.0, order(euler), 0.05, source),
-        Row("bending by a pulse, order in dt of the two-step scheme", 2.0, order(fitted), 0.3, "BDF2"),
-    ]
+    row("bending, order in dt of implicit Euler", 1.0, order(euler), 0.05, source)
+    row("bending by a pulse, order in dt of the two-step scheme", 2.0, order(fitted), 0.3, "BDF2")
 
 
-@checks
-def gauss_seidel() -> list[Row]:
+def test_gauss_seidel(row):
     """Run to convergence it agrees; the error follows the tolerance in first order."""
     system, steps = beam(2, 2, 4), 50
     sine = 1e-6 * np.sin(2 * np.pi / steps * np.arange(1, 21))
@@ -130,14 +116,11 @@ def gauss_seidel() -> list[Row]:
         force = np.array([stepper.advance(v) for v in np.diff(sine, prepend=0.0) / dt])
         errors.append(np.abs(force - expected).max() / np.abs(expected).max())
     rate = np.log10(errors[-2] / errors[-1]) / 2
-    return [
-        Row("Gauss-Seidel at a tolerance of 1e-9, force", 0.0, errors[-1], 1e-5, "condensed solution"),
-        Row("Gauss-Seidel, order in its tolerance", 1.0, rate, 0.3, "linear convergence"),
-    ]
+    row("Gauss-Seidel at a tolerance of 1e-9, force", 0.0, errors[-1], 1e-5, "condensed solution")
+    row("Gauss-Seidel, order in its tolerance", 1.0, rate, 0.3, "linear convergence")
 
 
-@checks
-def breaking_alike() -> list[Row]:
+def test_breaking_alike(row):
     """Beyond yield: the same bonds in the same order, the same forces, by full and reduced stepping."""
     steps, force, broken, source = 100, [], [], "condensed against reduced"
     for method in ("condensed", "reduced"):
@@ -147,14 +130,11 @@ def breaking_alike() -> list[Row]:
         broken.append(list(run.stepper.state.broken))
     same = sum(a == b for a, b in zip(*broken, strict=False)) if broken[0] else np.nan
     difference = np.abs(force[0] - force[1]).max() / np.abs(force[0]).max()
-    return [
-        Row("fracture, bonds that break alike and in order", len(broken[0]), same, 0.0, source),
-        Row("fracture, difference of the force", 0.0, difference, 1e-6, source),
-    ]
+    row("fracture, bonds that break alike and in order", len(broken[0]), same, 0.0, source)
+    row("fracture, difference of the force", 0.0, difference, 1e-6, source)
 
 
-@checks
-def a_law_for_each_bond() -> list[Row]:
+def test_a_law_for_each_bond(row):
     """Drawn from a table; and one law in every place of the table, through breaks."""
     system, steps = replace(beam(), load=np.zeros(beam().mass.size)), 100
     dt = 2 * np.pi / OMEGA / steps
@@ -174,10 +154,8 @@ def a_law_for_each_bond() -> list[Row]:
     same = sum(a == b for a, b in zip(*broken, strict=False))
     by_frequency = abs(driving_force(system, modulus, OMEGA, rate**2) / exact)
     three, one, source = "bonds of three laws", "one law in each bond", "dense equations of the scheme"
-    return [
-        Row(f"{three}, |F/z| in the frequency domain", 1.0, by_frequency, 1e-9, "dense equations"),
-        Row(f"{three}, |F/z| of implicit Euler", 1.0, abs(found / exact), 1e-5, source),
-        Row(f"{three}, phase of implicit Euler (rad)", 0.0, np.angle(found / exact), 1e-5, "the same"),
-        Row(f"{one}, difference of the force", 0.0, difference, 1e-12, "that law shared"),
-        Row(f"{one}, bonds that break alike", len(broken[0]), same, 0.0, "that law shared"),
-    ]
+    row(f"{three}, |F/z| in the frequency domain", 1.0, by_frequency, 1e-9, "dense equations")
+    row(f"{three}, |F/z| of implicit Euler", 1.0, abs(found / exact), 1e-5, source)
+    row(f"{three}, phase of implicit Euler (rad)", 0.0, np.angle(found / exact), 1e-5, "the same")
+    row(f"{one}, difference of the force", 0.0, difference, 1e-12, "that law shared")
+    row(f"{one}, bonds that break alike", len(broken[0]), same, 0.0, "that law shared")

@@ -23,10 +23,8 @@ from asphalt_nscd.specimen.power_diagram import power_diagram
 from asphalt_nscd.specimen.prism import pull, static_ratio
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen
-from asphalt_nscd.verification.row import Checks, Row, order
-from asphalt_nscd.verification.specimens import jittered_beam
-
-checks = Checks()
+from theory.rows import order
+from theory.specimens import jittered_beam
 
 STRAIN = np.array([[0.7, 0.3, -0.5], [0.3, -0.4, 0.2], [-0.5, 0.2, 1.0]])
 LEFT_OUT = 1e-5  # relative; facets of negligible area are no bonds
@@ -37,8 +35,7 @@ def block() -> Specimen:
     return jittered_beam(seed=4, shape=(6, 5, 12), fill=0.45, area="facets")
 
 
-@checks
-def cells() -> list[Row]:
+def test_cells(row):
     """Pyramids over the facets fill the specimen; each cell is closed and obeys the divergence theorem."""
     specimen, source = block(), "divergence theorem"
     n, geometry = specimen.radius.size, specimen.geometry
@@ -55,15 +52,12 @@ def cells() -> list[Row]:
     )
     misfit = np.abs(arms - volume * np.eye(3)).max() / volume
     area = np.abs(out).max() / facets.area.mean()
-    return [
-        Row("volume of cells, sum A l / 3 (m3)", volume, facets.volume, LEFT_OUT, "the specimen"),
-        Row("closed cells, largest sum A n over a mean facet", 0.0, area, 10 * LEFT_OUT, source),
-        Row("sum A (c - x) n over the specimen less V I", 0.0, misfit, LEFT_OUT, source),
-    ]
+    row("volume of cells, sum A l / 3 (m3)", volume, facets.volume, LEFT_OUT, "the specimen")
+    row("closed cells, largest sum A n over a mean facet", 0.0, area, 10 * LEFT_OUT, source)
+    row("sum A (c - x) n over the specimen less V I", 0.0, misfit, LEFT_OUT, source)
 
 
-@checks
-def patch() -> list[Row]:
+def test_patch(row):
     """kt = kn, all spheres displaced by a uniform strain: in equilibrium, with the stress E strain."""
     specimen, source = block(), "sum A n = 0 and sum A (c - x) n = V I in each cell"
     network, n, geometry = specimen.network, specimen.radius.size, specimen.geometry
@@ -83,48 +77,37 @@ def patch() -> list[Row]:
     traction = np.einsum("bk,bka->ba", force.reshape(-1, 3)[within], network.frame[within])
     error = traction - network.area[within, None] * network.frame[within, 0] @ STRAIN
     force, torque, misfit = (np.abs(of).max() / scale for of in (load[:, :3], load[:, 3:], error))
-    return [
-        Row("uniform strain, largest force on a sphere", 0.0, force, 10 * LEFT_OUT, source),
-        Row("uniform strain, largest torque on a sphere (mm)", 0.0, 1e3 * torque, 10 * LEFT_OUT, source),
-        Row("uniform strain, traction of a facet", 0.0, misfit, 1e-12, "sigma n = E strain n"),
-    ]
+    row("uniform strain, largest force on a sphere", 0.0, force, 10 * LEFT_OUT, source)
+    row("uniform strain, largest torque on a sphere (mm)", 0.0, 1e3 * torque, 10 * LEFT_OUT, source)
+    row("uniform strain, traction of a facet", 0.0, misfit, 1e-12, "sigma n = E strain n")
 
 
-@checks
-def tension() -> list[Row]:
+def test_tension(row):
     """A prism with free faces, kt = kn: the modulus of the law in any packing, and no contraction."""
-    rows = []
     for seed, fill in ((4, 0.45), (5, 0.25)):
         modulus, poisson = pull(
             jittered_beam(seed=seed, shape=(5, 4, 12), fill=fill, area="facets"), np.ones(3)
         )
-        rows.append(
-            Row(f"pulled prism of packing {seed}, E over the law", 1.0, modulus, LEFT_OUT, "patch test")
-        )
-        rows.append(Row("the same, Poisson's ratio", 0.0, poisson, LEFT_OUT, "patch test"))
-    return rows
+        row(f"pulled prism of packing {seed}, E over the law", 1.0, modulus, LEFT_OUT, "patch test")
+        row("the same, Poisson's ratio", 0.0, poisson, LEFT_OUT, "patch test")
 
 
-@checks
-def bending() -> list[Row]:
+def test_bending(row):
     """Cantilevers of facets against Timoshenko's beam, whose shear Eq. (3) leaves out.
 
     A facet acts at its centroid and has no moment of its own: N of them over the width of the beam have a
     second moment smaller by the part 1/N^2.
     """
-    rows = []
     for count in (6, 10):
         beam = jittered_beam(seed=6, shape=(count, 3, 36), area="facets")
         share = beam.geometry.counted_share(0.0)
         expected = 1.0 / (1.0 / (1.0 - count**-2) + 1.0 / share - 1.0)
         found = share * static_ratio(bending_system(beam, 0.35, np.inf, 0.7), beam.geometry)
         name = f"cantilever of {count} facets over its width, Eq. (3) over the law"
-        rows.append(Row(name, expected, found, 0.006, "Timoshenko, k = 5/6, nu = 0"))
-    return rows
+        row(name, expected, found, 0.006, "Timoshenko, k = 5/6, nu = 0")
 
 
-@checks
-def four_points() -> list[Row]:
+def test_four_points(row):
     """A prism between four clamps, the inner ones cutting through its spheres, against Timoshenko's beam; then dynamic.
 
     Beside the law stands E* over that of statics; at a tenth of the stiffness an error of 2 % in the mass factor shows.
@@ -137,16 +120,15 @@ def four_points() -> list[Row]:
     stiffness = abs(modulus) * static / geometry.form_factor()
     expected = 1.0 / (1.0 / (1.0 - 0.01) + 1.0 / share - 1.0)
     name = "prism of 10 facets over its depth, four-point bending over the law"
-    rows = [Row(name, expected, share * static, 2e-3, "Timoshenko, k = 5/6, nu = 0")]
+    row(name, expected, share * static, 2e-3, "Timoshenko, k = 5/6, nu = 0")
     for part in (1e-3, 0.1):
         omega = np.sqrt(part * stiffness / geometry.mass_factor())
         force = driving_force(system, modulus, omega)
         found = geometry.complex_modulus(omega / (2 * np.pi), abs(force), 1.0, np.angle(force)) / static
         name = f"the same, mass term {part:g} of the stiffness"
-        rows.append(Row(f"{name}, |E*| over the law", 1.0, abs(found / modulus), 1e-3, "the law"))
+        row(f"{name}, |E*| over the law", 1.0, abs(found / modulus), 1e-3, "the law")
         phase = np.degrees(np.angle(found / modulus))
-        rows.append(Row(f"{name}, phase over the law (deg)", 0.0, phase, 0.05, "the law"))
-    return rows
+        row(f"{name}, phase over the law (deg)", 0.0, phase, 0.05, "the law")
 
 
 def clamped() -> Model:
@@ -157,14 +139,13 @@ def clamped() -> Model:
     return replace(model, system=replace(model.system, mass=1e-3 * model.system.mass), stand_by=None)
 
 
-@checks
-def held() -> list[Row]:
+def test_held(row):
     """A prism between four clamps, its force or its displacement held: creep and relaxation of the law, in small steps.
 
     Errors are of first order in the step, so that twice those of half the step cancel. Its weight, a third of the
     force, is tared.
     """
-    model, law, rows = clamped(), Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9), []
+    model, law = clamped(), Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9)
     static, form = static_ratio(model.system, model.geometry), model.geometry.form_factor()
     for what, held, law_at, source in (
         (
@@ -182,14 +163,12 @@ def held() -> list[Row]:
         for t, coarse, fine in zip(times, *found, strict=True):
             name = f"prism between four clamps, {what} modulus after {1e3 * t:g} ms (GPa)"
             expected = float(law_at(t)) * static
-            rows.append(Row(name, 1e-9 * expected, 1e-9 * (2.0 * fine - coarse), 2e-5, source))
+            row(name, 1e-9 * expected, 1e-9 * (2.0 * fine - coarse), 2e-5, source)
             errors = [abs(one / expected - 1.0) for one in (coarse, fine)]
-            rows.append(Row(f"{name}, order in the step", 1.0, order(errors), 0.01, "implicit Euler"))
-    return rows
+            row(f"{name}, order in the step", 1.0, order(errors), 0.01, "implicit Euler")
 
 
-@checks
-def commanded() -> list[Row]:
+def test_commanded(row):
     """Its force commanded, E* is that of the motion commanded, and the force as it was said."""
     model, law = clamped(), bond_law(Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9))
     numerics = Numerics(1e-2 / 200, 1000, scheme="fitted")
@@ -200,15 +179,12 @@ def commanded() -> list[Row]:
         moduli.append(seen.force_amplitude / seen.displacement_amplitude * np.exp(1j * seen.phase))
         force = seen.force_amplitude
     ratio = moduli[1] / moduli[0]
-    return [
-        Row("force commanded over motion commanded, |E*|", 1.0, abs(ratio), 1e-6, "one linear system"),
-        Row("the same, phase (deg)", 0.0, float(np.degrees(np.angle(ratio))), 1e-5, "one linear system"),
-        Row("commanded force (N)", 0.1, force, 1e-6, "as it was said"),
-    ]
+    row("force commanded over motion commanded, |E*|", 1.0, abs(ratio), 1e-6, "one linear system")
+    row("the same, phase (deg)", 0.0, float(np.degrees(np.angle(ratio))), 1e-5, "one linear system")
+    row("commanded force (N)", 0.1, force, 1e-6, "as it was said")
 
 
-@checks
-def resonance() -> Row:
+def test_resonance(row):
     """A bar held at its foot, its head without mass: the first resonance in tension is that of a quarter wave."""
     beam, modulus = jittered_beam(seed=6, shape=(3, 3, 40), area="facets"), 1e10
     geometry, system = beam.geometry, bending_system(beam, 0.35, np.inf, 0.7)
@@ -222,4 +198,4 @@ def resonance() -> Row:
     stiffness = lambda omega: driving_force(along, complex(modulus), omega).real  # noqa: E731
     found = brentq(stiffness, 0.9 * quarter, 1.1 * quarter, rtol=1e-7)
     name, source = "bar of facets, first resonance in tension (rad/s)", "c = sqrt(E/rho), pi c/(2 h)"
-    return Row(name, quarter, found, 1e-3, source)
+    row(name, quarter, found, 1e-3, source)

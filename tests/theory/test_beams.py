@@ -16,10 +16,8 @@ from asphalt_nscd.nscd.stepping.harmonic import actuator_stiffness, driving_forc
 from asphalt_nscd.nscd.stepping.integrator import March
 from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.specimen.system import bending_system
-from asphalt_nscd.verification.row import Checks, Row, order
-from asphalt_nscd.verification.specimens import QUICK_LAW, chain, elastic, jittered_beam, laminated_beam
-
-checks = Checks()
+from theory.rows import order
+from theory.specimens import QUICK_LAW, chain, elastic, jittered_beam, laminated_beam
 
 SPECIMEN = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)  # the paper's
 PRISM = Geometry(b=40e-3, B=40e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
@@ -27,8 +25,7 @@ RIGID_IN_SHEAR = 1e4  # tangential over normal stiffness: Euler-Bernoulli's beam
 MODULUS = 1e10  # Pa
 
 
-@checks
-def rigid_motion() -> list[Row]:
+def test_rigid_motion(row):
     """All bodies turn and drift as one: bonds between them stay shut, and no reaction does any net work."""
     specimen = jittered_beam()
     network, rng = specimen.network, np.random.default_rng(3)
@@ -42,15 +39,12 @@ def rigid_motion() -> list[Row]:
     force = forces[:, :3].sum(axis=0)
     torque = (forces[:, 3:] + np.cross(position, forces[:, :3])).sum(axis=0)
     source = "rigid-body kinematics; actio = reactio"
-    return [
-        Row("rigid motion of a bonded beam, largest opening", 0.0, np.abs(opening).max(), 1e-13, source),
-        Row("reactions of a bonded beam, sum of forces", 0.0, np.abs(force).max(), 1e-12, source),
-        Row("reactions of a bonded beam, sum of torques", 0.0, np.abs(torque).max(), 1e-12, source),
-    ]
+    row("rigid motion of a bonded beam, largest opening", 0.0, np.abs(opening).max(), 1e-13, source)
+    row("reactions of a bonded beam, sum of forces", 0.0, np.abs(force).max(), 1e-12, source)
+    row("reactions of a bonded beam, sum of torques", 0.0, np.abs(torque).max(), 1e-12, source)
 
 
-@checks
-def chain_of_bonds() -> list[Row]:
+def test_chain_of_bonds(row):
     """n equal masses on equal springs, the last to the wall: force at the driven end by transfer matrices."""
     system, omega, n = chain(6, 2e-3, 0.3), 4e3, 6
     stiffness, inertia = 2e-3 * MODULUS, -0.3 * omega**2
@@ -59,13 +53,10 @@ def chain_of_bonds() -> list[Row]:
         seen = 1.0 / (1.0 / stiffness + 1.0 / (seen + inertia))
     expected = seen + inertia
     found = driving_force(system, MODULUS, omega).real
-    return [
-        Row("chain of six masses and bonds, dynamic stiffness", expected, found, 1e-12, "transfer matrices")
-    ]
+    row("chain of six masses and bonds, dynamic stiffness", expected, found, 1e-12, "transfer matrices")
 
 
-@checks
-def hanging_chain() -> Row:
+def test_hanging_chain(row):
     """Hung up in a Maxwell law it creeps: the lowest body sinks by the sum over the bonds below which it hangs."""
     n, weight, load = 4, 2e-3, 3.0
     system, law = chain(n, weight, 1e-9, load), BondLaw(MODULUS, 1e9, np.array([]), np.array([]))
@@ -77,21 +68,19 @@ def hanging_chain() -> Row:
         stepper.advance(0.0)
     pulled = load * (n - 1) * n / 2  # the free ends' bonds carry one, two, ... loads
     expected, found = pulled / weight * (1.0 / MODULUS + steps * dt / 1e9), state.displacement[0]
-    return Row("chain of bodies hung on Maxwell bonds, creep", expected, found, 1e-6, "J(t) = 1/E + t/eta")
+    row("chain of bodies hung on Maxwell bonds, creep", expected, found, 1e-6, "J(t) = 1/E + t/eta")
 
 
-@checks
-def held_chain() -> Row:
+def test_held_chain(row):
     """Between two supports, each body loaded alike: the head bears its own load and half of the others."""
     n, load, law = 6, 3.0, elastic(MODULUS)
     system = chain(n, 2e-3, 1e-9, load)
     stepper = CondensedStepper(system, law, 1e-2, CondensedState.at_rest(system, law))
     expected, force = -load * (n + 1) / 2, [stepper.advance(0.0) for _ in range(3)][-1]
-    return Row("chain between two supports, force of the head (N)", expected, force, 1e-9, "symmetry")
+    row("chain between two supports, force of the head (N)", expected, force, 1e-9, "symmetry")
 
 
-@checks
-def oscillator() -> list[Row]:
+def test_oscillator(row):
     """A mass on an elastic bond, let go: amplitude and phase after four periods; second order and first."""
     errors: dict[str, list[float]] = {"euler": [], "fitted": []}
     omega, source = np.sqrt(2e-3 * MODULUS / 0.2), "m u'' + k u = 0"
@@ -107,14 +96,11 @@ def oscillator() -> list[Row]:
             for _ in range(4 * steps):
                 march.move_to(0.0)
             found.append(abs(state.velocity[1] - 1.0))
-    return [
-        Row("oscillator, order in dt of implicit Euler", 1.0, order(errors["euler"]), 0.1, source),
-        Row("oscillator, order in dt of the two-step scheme", 2.0, order(errors["fitted"]), 0.1, source),
-    ]
+    row("oscillator, order in dt of implicit Euler", 1.0, order(errors["euler"]), 0.1, source)
+    row("oscillator, order in dt of the two-step scheme", 2.0, order(errors["fitted"]), 0.1, source)
 
 
-@checks
-def timoshenko() -> list[Row]:
+def test_timoshenko(row):
     """Cantilever under a tip load: sum over the cuts exactly, the continuous beam in second order."""
     shear, source = 0.02, "Timoshenko: F L^3/(3 E I) + F L/(k G A)"
     inertia, area, length = PRISM.e * PRISM.B**3 / 12, PRISM.e * PRISM.B, PRISM.h
@@ -124,26 +110,22 @@ def timoshenko() -> list[Row]:
     arm = length - (np.arange(10) + 0.5) * length / 10
     cut = length / 10 / (MODULUS * inertia), length / 10 / (shear * MODULUS * area)
     discrete = 1.0 / ((cut[0] * arm**2).sum() + 10 * cut[1])
-    return [
-        Row("beam of bonds in ten cuts, stiffness", discrete, found[0], 1e-9, "virtual work over the cuts"),
-        Row("beam of bonds in forty cuts, stiffness", exact, found[-1], 1e-3, source),
-        Row("beam of bonds, order in the length of a slice", 2.0, order(found - exact), 0.05, source),
-    ]
+    row("beam of bonds in ten cuts, stiffness", discrete, found[0], 1e-9, "virtual work over the cuts")
+    row("beam of bonds in forty cuts, stiffness", exact, found[-1], 1e-3, source)
+    row("beam of bonds, order in the length of a slice", 2.0, order(found - exact), 0.05, source)
 
 
-@checks
-def euler_bernoulli() -> Row:
+def test_euler_bernoulli(row):
     found = driving_force(laminated_beam(PRISM, 80, RIGID_IN_SHEAR), MODULUS, 0.0).real
     expected = 3 * MODULUS * PRISM.e * PRISM.B**3 / 12 / PRISM.h**3
-    return Row("slender beam of bonds, stiffness", expected, found, 2e-4, "Euler-Bernoulli: 3 E I/L^3")
+    row("slender beam of bonds, stiffness", expected, found, 2e-4, "Euler-Bernoulli: 3 E I/L^3")
 
 
-@checks
-def trapezoid() -> Row:
+def test_trapezoid(row):
     """Eq. (3): E = gamma F/z, the head free to rotate."""
     beam = laminated_beam(SPECIMEN, 200, RIGID_IN_SHEAR)
     found = form_factor(SPECIMEN) * driving_force(beam, MODULUS, 0.0).real
-    return Row("trapezoid in two-point bending, form factor", MODULUS, found, 1e-4, "Eq. (3), EN 12697-26")
+    row("trapezoid in two-point bending, form factor", MODULUS, found, 1e-4, "Eq. (3), EN 12697-26")
 
 
 def _deflection(height: float) -> float:
@@ -152,8 +134,7 @@ def _deflection(height: float) -> float:
     return quad(lambda z: (height - z) * (h - z) / (B + taper * z) ** 3, 0.0, height)[0]
 
 
-@checks
-def moving_mass() -> list[Row]:
+def test_moving_mass(row):
     """Below resonance the beam's inertia is that of its static shape (Rayleigh): Eq. (1) rounds it to 0.135 M."""
     tip, h = _deflection(SPECIMEN.h), SPECIMEN.h
     width = lambda z: SPECIMEN.B + (SPECIMEN.b - SPECIMEN.B) * z / h  # noqa: E731
@@ -162,19 +143,16 @@ def moving_mass() -> list[Row]:
     drop = driving_force(beam, MODULUS, 0.0).real - driving_force(beam, MODULUS, omega).real
     found = drop / omega**2
     expected, source = shape * SPECIMEN.mass + SPECIMEN.mobile_mass, "Rayleigh's quotient of the static shape"
-    return [
-        Row("trapezoid in two-point bending, mass at the head (kg)", expected, found, 1e-3, source),
-        Row("the same by Eq. (1) (kg)", mass_factor(SPECIMEN), found, 0.03, "mu = 0.135 M + m, EN 12697-26"),
-    ]
+    row("trapezoid in two-point bending, mass at the head (kg)", expected, found, 1e-3, source)
+    row("the same by Eq. (1) (kg)", mass_factor(SPECIMEN), found, 0.03, "mu = 0.135 M + m, EN 12697-26")
 
 
-@checks
-def rig_devices() -> list[Row]:
+def test_rig_devices(row):
     """Spring and mass at the head, clamp to the actuator: stiffnesses in parallel and in series."""
     system = bending_system(jittered_beam(), 0.35, 2.7e6, 0.7)
     omega, steps = 80 * np.pi, 100
     dt = 2 * np.pi / omega / steps
-    rows, source = [], "1/(C + 1/(H + k - m omega^2))"
+    source = "1/(C + 1/(H + k - m omega^2))"
     for name, devices in (
         ("guide spring", HeadDevices(0.0, 1e5)),
         ("moving mass", HeadDevices(0.0, 0.0, 0.0, 2.0)),
@@ -192,8 +170,7 @@ def rig_devices() -> list[Row]:
         carrier = np.exp(-1j * omega * dt * np.arange(3 * steps + 1, 4 * steps + 1))
         found = 2j * (force[3 * steps :] * carrier).mean() / 1e-6
         other = actuator_stiffness(head, devices, omega)
-        rows.append(Row(f"rig with a {name}, apparent |F/z|", abs(exact), abs(found), 1e-5, source))
+        row(f"rig with a {name}, apparent |F/z|", abs(exact), abs(found), 1e-5, source)
         other = actuator_stiffness(head, devices, omega)
         phase, apart = np.angle(exact), "the same, frequency domain"
-        rows.append(Row(f"rig with a {name}, phase (rad)", phase, np.angle(other), 1e-12, apart))
-    return rows
+        row(f"rig with a {name}, phase (rad)", phase, np.angle(other), 1e-12, apart)

@@ -7,10 +7,8 @@ import numpy as np
 from asphalt_nscd.nscd.bonds.law import BondLaw, BondLaws
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.rheology.burgers import Burgers
-from asphalt_nscd.verification.row import Checks, Row, order
-from asphalt_nscd.verification.specimens import system_of
-
-checks = Checks()
+from theory.rows import order
+from theory.specimens import system_of
 
 BURGERS = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)  # Table 3, 15 degC
 LAW = BondLaw(24.3e9, 3.71e9, np.array([48.4e9]), np.array([0.773e9]))
@@ -67,55 +65,43 @@ def chain_creep(time: float) -> float:
     return 1 / CHAIN.spring + time / CHAIN.dashpot + delayed
 
 
-@checks
-def creep_rows() -> list[Row]:
-    rows = []
+def test_creep(row):
     for name, law, exact in (
         ("Burgers", LAW, float(BURGERS.creep_compliance(0.02))),
         ("Kelvin chain", CHAIN, chain_creep(0.02)),
     ):
         found = np.array([creep(law, 0.02, dt) for dt in STEPS])
-        rows += [
-            Row(f"{name} creep, opening after 20 ms", exact, found[-1], 2e-3, BURGERS_LAW),
-            Row(f"{name} creep, order in dt", 1.0, order(found - exact), 0.05, EULER),
-        ]
-    return rows
+        row(f"{name} creep, opening after 20 ms", exact, found[-1], 2e-3, BURGERS_LAW)
+        row(f"{name} creep, order in dt", 1.0, order(found - exact), 0.05, EULER)
 
 
-@checks
-def relaxation_rows() -> list[Row]:
+def test_relaxation(row):
     exact = float(BURGERS.relaxation_modulus(0.02))
     found = np.array([-follow(LAW, np.ones(round(0.02 / dt)), dt)[-1] for dt in STEPS])
-    return [
-        Row("Burgers relaxation, stress after 20 ms", exact, found[-1], 5e-3, BURGERS_LAW),
-        Row("Burgers relaxation, order in dt", 1.0, order(found - exact), 0.05, EULER),
-    ]
+    row("Burgers relaxation, stress after 20 ms", exact, found[-1], 5e-3, BURGERS_LAW)
+    row("Burgers relaxation, order in dt", 1.0, order(found - exact), 0.05, EULER)
 
 
-@checks
-def oscillation_rows() -> list[Row]:
+def test_oscillation(row):
     omega = 2 * np.pi * FREQUENCY
     exact = complex(BURGERS.complex_modulus(omega))
     found = np.array([steady_modulus(LAW, n) for n in (100, 200, 400)])
     name, of_the_scheme = "Burgers oscillation", "i omega -> (1 - exp(-i omega dt))/dt"
     scheme = LAW.discrete_modulus(omega, 1 / (400 * FREQUENCY))
     of_scheme, phase = float(np.angle(scheme)), float(np.angle(found[-1]))
-    return [
-        Row(f"{name}, |E*| at 400 steps a cycle", abs(exact), abs(found[-1]), 5e-3, "Eqs. (27)-(29)"),
-        Row(f"{name}, order in dt", 1.0, order([abs(value) for value in found - exact]), 0.05, EULER),
-        Row(f"{name}, |E*| of the scheme", abs(scheme), abs(found[-1]), 1e-8, of_the_scheme),
-        Row(f"{name}, phase of the scheme (rad)", of_scheme, phase, 1e-8, "the same"),
-    ]
+    row(f"{name}, |E*| at 400 steps a cycle", abs(exact), abs(found[-1]), 5e-3, "Eqs. (27)-(29)")
+    row(f"{name}, order in dt", 1.0, order([abs(value) for value in found - exact]), 0.05, EULER)
+    row(f"{name}, |E*| of the scheme", abs(scheme), abs(found[-1]), 1e-8, of_the_scheme)
+    row(f"{name}, phase of the scheme (rad)", of_scheme, phase, 1e-8, "the same")
 
 
-@checks
-def two_bonds_in_series() -> list[Row]:
+def test_two_bonds_in_series(row):
     """A Burgers bond's normal and a chain's tangent, in series under 3 N: each creeps by its own law."""
-    time, rows = 0.02, np.zeros((6, 3))
+    time, operator = 0.02, np.zeros((6, 3))
     # Body 2 on body 1 along the normal, body 1 on the wall along a tangent.
-    rows[0], rows[4] = [0, -1, 1], [0, 1, 0]
+    operator[0], operator[4] = [0, -1, 1], [0, 1, 0]
     mass, load = np.array([1.0, 1e-9, 1e-9]), np.array([0.0, 0.0, 3.0])
-    system = system_of(rows, np.repeat([2e-3, 5e-3], 3), mass, driven=0, load=load)
+    system = system_of(operator, np.repeat([2e-3, 5e-3], 3), mass, driven=0, load=load)
     law = BondLaws.of_bonds((LAW, CHAIN), np.array([0, 0]), np.array([0, 1]))
     found = np.zeros(len(STEPS))
     for k, dt in enumerate(STEPS):
@@ -125,7 +111,5 @@ def two_bonds_in_series() -> list[Row]:
         found[k] = stepper.state.displacement[2]
     exact = 3.0 * (float(BURGERS.creep_compliance(time)) / 2e-3 + chain_creep(time) / 5e-3)
     name = "bonds of two laws in series"
-    return [
-        Row(f"{name}, opening after 20 ms", exact, found[-1], 2e-3, "sum of both creep compliances"),
-        Row(f"{name}, order in dt", 1.0, order(found - exact), 0.05, EULER),
-    ]
+    row(f"{name}, opening after 20 ms", exact, found[-1], 2e-3, "sum of both creep compliances")
+    row(f"{name}, order in dt", 1.0, order(found - exact), 0.05, EULER)

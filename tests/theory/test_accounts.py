@@ -16,11 +16,8 @@ from asphalt_nscd.nscd.stepping.integrator import March, Stepper
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
-from asphalt_nscd.verification.methods import beam
-from asphalt_nscd.verification.row import Checks, Row
-from asphalt_nscd.verification.specimens import QUICK_LAW, elastic, mixed
-
-checks = Checks()
+from theory.specimens import QUICK_LAW, elastic, mixed
+from theory.test_methods import beam
 
 DT, OMEGA = 2.5e-4, 80 * np.pi
 CLOSES = 1e-10  # of the actuator's work: rounding; 1e-6 is what is asked for
@@ -54,12 +51,10 @@ def account(
     return run.account.sums, worst / abs(run.account.sums.actuator)
 
 
-@checks
-def closure() -> list[Row]:
+def test_closure(row):
     # so narrow that gaps close, and so strong that no bond breaks before
     narrow = replace(beam(), gap=1e-3 * beam().gap, strength=np.full_like(beam().strength, np.inf))
     rig = HeadDevices(1e-7, 1e4, 5.0, 0.2)
-    rows = []
     for what, system, amplitude, devices, methods in (
         ("breaking bonds", beam(), 8e-5, RIGID, ("condensed", "reduced")),
         ("closing gaps and a rig with a slider", narrow, 3e-5, rig, ("condensed",)),
@@ -67,14 +62,12 @@ def closure() -> list[Row]:
         for method in methods:
             for name in ("euler", "fitted"):
                 _, error = account(system, amplitude, method, name, devices)
-                rows.append(Row(f"energy account, {method}, {name}, {what}", 0.0, error, CLOSES, ACCOUNT))
+                row(f"energy account, {method}, {name}, {what}", 0.0, error, CLOSES, ACCOUNT)
         _, error = account(system, amplitude, "condensed", "fitted", devices, law=mixed(system))
-        rows.append(Row(f"energy account, bonds of three laws, fitted, {what}", 0.0, error, CLOSES, ACCOUNT))
-    return rows
+        row(f"energy account, bonds of three laws, fitted, {what}", 0.0, error, CLOSES, ACCOUNT)
 
 
-@checks
-def terms() -> list[Row]:
+def test_terms(row):
     weightless = replace(beam(), load=np.zeros(beam().mass.size))
     # the difference is the fifth cycle alone: transients die within two (QUICK_LAW)
     long, short = (account(weightless, 1e-6, "reduced", "fitted", cycles=cycles)[0] for cycles in (5.0, 4.0))
@@ -82,8 +75,6 @@ def terms() -> list[Row]:
     stored = account(weightless, 1e-6, "condensed", "euler", cycles=0.25, law=elastic(1e10))[0].springs
     still = 0.5e-12 * driving_force(beam(), 1e10, 0.0).real
     work, dissipated = long.actuator - short.actuator, long.dashpots - short.dashpots
-    return [
-        Row("work of the actuator in a cycle (J)", loss, work, 1e-6, "pi F0 z0 sin(psi)"),
-        Row("dissipation of the dashpots in a cycle (J)", loss, dissipated, 1e-6, "all of that work"),
-        Row("energy of elastic bonds at the crest (J)", still, stored, 1e-5, "F0 z0/2, but for inertia"),
-    ]
+    row("work of the actuator in a cycle (J)", loss, work, 1e-6, "pi F0 z0 sin(psi)")
+    row("dissipation of the dashpots in a cycle (J)", loss, dissipated, 1e-6, "all of that work")
+    row("energy of elastic bonds at the crest (J)", still, stored, 1e-5, "F0 z0/2, but for inertia")

@@ -8,9 +8,7 @@ from numpy.typing import ArrayLike
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
-from asphalt_nscd.verification.row import Checks, Row, order
-
-checks = Checks()
+from theory.rows import order
 
 G, R = 9.81, 2.0**-9  # the radius a power of two, so that spheres touch to the last digit
 # no overlap is undone, which would add motion that the theory does not know
@@ -66,15 +64,12 @@ def energy(bed: GranularBed) -> float:
     return bed.kinetic_energy() - float(masses(bed) @ (bed.position @ bed.gravity))
 
 
-@checks
-def free_fall() -> list[Row]:
+def test_free_fall(row):
     source = "v = g t; z = g t^2/2, of which implicit Euler makes g t (t + dt)/2"
     ball = advanced(balls([0.5, 0.5, 0.5]), 300)
     t, dt = ball.time, TIGHT.time_step
-    return [
-        Row("free fall, speed", -G * t, ball.velocity[0, 2], 1e-12, source),
-        Row("free fall, height", -0.5 * G * t * (t + dt), ball.position[0, 2] - 0.5, 1e-12, source),
-    ]
+    row("free fall, speed", -G * t, ball.velocity[0, 2], 1e-12, source)
+    row("free fall, height", -0.5 * G * t * (t + dt), ball.position[0, 2] - 0.5, 1e-12, source)
 
 
 def _on_incline(slope: float, friction: float) -> GranularBed:
@@ -82,41 +77,32 @@ def _on_incline(slope: float, friction: float) -> GranularBed:
     return advanced(balls([0.1, 0.5, R], friction=friction, gravity=tilted), 200)
 
 
-@checks
-def rolling() -> list[Row]:
+def test_rolling(row):
     # a thousandth above the least friction with which it rolls
     ball = _on_incline(0.3, 2 / 7 * np.tan(0.3) * 1.001)
     speed, source = 5 / 7 * G * np.sin(0.3) * ball.time, "a = (5/7) g sin(slope) where mu > (2/7) tan(slope)"
-    return [
-        Row("rolling sphere on a slope, speed", speed, ball.velocity[0, 0], 1e-10, source),
-        Row("rolling sphere on a slope, spin times radius", speed, ball.velocity[0, 4], 1e-10, source),
-    ]
+    row("rolling sphere on a slope, speed", speed, ball.velocity[0, 0], 1e-10, source)
+    row("rolling sphere on a slope, spin times radius", speed, ball.velocity[0, 4], 1e-10, source)
 
 
-@checks
-def sliding() -> list[Row]:
+def test_sliding(row):
     friction = 2 / 7 * np.tan(0.9) * 0.7
     ball = _on_incline(0.9, friction)
     speed = G * (np.sin(0.9) - friction * np.cos(0.9)) * ball.time
     spin = 2.5 * friction * G * np.cos(0.9) * ball.time
     source = "a = g (sin - mu cos), r alpha = (5/2) mu g cos"
-    return [
-        Row("sliding sphere on a slope, speed", speed, ball.velocity[0, 0], 1e-10, source),
-        Row("sliding sphere on a slope, spin times radius", spin, ball.velocity[0, 4], 1e-10, source),
-    ]
+    row("sliding sphere on a slope, speed", speed, ball.velocity[0, 0], 1e-10, source)
+    row("sliding sphere on a slope, spin times radius", spin, ball.velocity[0, 4], 1e-10, source)
 
 
-@checks
-def backspin() -> Row:
+def test_backspin(row):
     ball = balls([0.5, 0.5, R], friction=0.3)
     ball.velocity[0] = [0.1, 0, 0, 0, -0.4, 0]
     found, source = advanced(ball, 1500).velocity[0, 0], "(5 v0 - 2 s0)/7, s0 = 4 v0: it returns"
-    return Row("sphere with backspin, final speed", -3 / 70, found, 1e-10, source)
+    row("sphere with backspin, final speed", -3 / 70, found, 1e-10, source)
 
 
-@checks
-def impact() -> list[Row]:
-    rows = []
+def test_impact(row):
     for restitution in (0.0, 0.6):
         pair = balls(
             [[0.4, 0.5, 0.5], [0.4 + 4 * R + 1e-4, 0.5, 0.5]], [R, 3 * R], 0.5, restitution, (0, 0, 0)
@@ -125,12 +111,10 @@ def impact() -> list[Row]:
         m1, m2 = masses(advanced(pair, 10))
         expected = (m1 - 0.5 * m2 - restitution * 1.5 * m2) / (m1 + m2)
         name = f"head-on impact of unequal spheres, restitution {restitution:g}"
-        rows.append(Row(name, expected, pair.velocity[0, 0], 1e-12, "Newton's impact law and momentum"))
-    return rows
+        row(name, expected, pair.velocity[0, 0], 1e-12, "Newton's impact law and momentum")
 
 
-@checks
-def bounce() -> Row:
+def test_bounce(row):
     errors, second = [], 1.25e-3
     for dt in (4e-5, 1e-5):
         ball, highest = balls([0.5, 0.5, R + 5e-3], restitution=0.5), 0.0
@@ -140,13 +124,10 @@ def bounce() -> Row:
             if ball.velocity[0, 2] > 0.0:
                 highest = max(highest, ball.position[0, 2] - R)
         errors.append(highest - 0.25 * 5e-3)
-    return Row(
-        "bouncing sphere, height of the second arc", second, second + errors[-1], 2e-2, "e^2 h, to O(dt)"
-    )
+    row("bouncing sphere, height of the second arc", second, second + errors[-1], 2e-2, "e^2 h, to O(dt)")
 
 
-@checks
-def oblique_impact() -> list[Row]:
+def test_oblique_impact(row):
     pair = balls([[0.5, 0.5, 0.5], [0.5 + 3 * R, 0.5, 0.5]], [R, 2 * R], 0.4, 0.5, (0, 0, 0))
     pair.velocity[0], pair.velocity[1] = [1.0, 0.3, -0.2, 0.1, 0.7, -0.4], [-0.5, -0.2, 0.4, -0.3, 0.2, 0.9]
     before = momentum(pair), angular_momentum(pair), pair.kinetic_energy()
@@ -158,16 +139,13 @@ def oblique_impact() -> list[Row]:
     gained = max(pair.kinetic_energy() / before[2] - 1.0, 0.0)
     speed = pair.velocity[1, 0] - pair.velocity[0, 0]
     source = "contact forces are internal: actio = reactio at one point"
-    return [
-        Row("oblique impact with spin, change of momentum", 0.0, changes[0], 1e-13, source),
-        Row("oblique impact with spin, change of angular momentum", 0.0, changes[1], 1e-12, source),
-        Row("oblique impact with spin, energy gained", 0.0, gained, 1e-15, "friction dissipates"),
-        Row("oblique impact with spin, normal speed after", 0.75, speed, 1e-12, "e times that before"),
-    ]
+    row("oblique impact with spin, change of momentum", 0.0, changes[0], 1e-13, source)
+    row("oblique impact with spin, change of angular momentum", 0.0, changes[1], 1e-12, source)
+    row("oblique impact with spin, energy gained", 0.0, gained, 1e-15, "friction dissipates")
+    row("oblique impact with spin, normal speed after", 0.75, speed, 1e-12, "e times that before")
 
 
-@checks
-def column() -> list[Row]:
+def test_column(row):
     n = 5
     pile = advanced(balls([[0.5, 0.5, (2 * k + 1) * R] for k in range(n)]), 5)
     weight = masses(pile)[0] * G * TIGHT.time_step
@@ -177,15 +155,12 @@ def column() -> list[Row]:
         (int(i), int(j)): abs(r[2]) / weight for i, j, r in zip(first, pile._other, pile.impulse, strict=True)
     }
     ground, upper, speed = load[(0, n + 2)], load[(n - 2, n - 1)], np.abs(pile.velocity[:n]).max()
-    return [
-        Row("column of five spheres, force on the ground", n, ground, 1e-10, "weight above, m g each"),
-        Row("column of five spheres, force between the upper two", 1, upper, 1e-10, "m g"),
-        Row("column of five spheres, speed at rest", 0.0, speed, 1e-12, "equilibrium"),
-    ]
+    row("column of five spheres, force on the ground", n, ground, 1e-10, "weight above, m g each")
+    row("column of five spheres, force between the upper two", 1, upper, 1e-10, "m g")
+    row("column of five spheres, speed at rest", 0.0, speed, 1e-12, "equilibrium")
 
 
-@checks
-def two_stacked_spheres() -> Row:
+def test_two_stacked_spheres(row):
     """A sphere let go at the side of a heavy one, on which it rolls: potential energy into (7/10) m v^2."""
     lean, errors = 0.4, []
     for dt in (4e-5, 2e-5, 1e-5):
@@ -201,13 +176,10 @@ def two_stacked_spheres() -> Row:
         angle = np.arctan2(pair.position[1, 0] - 0.5, pair.position[1, 2] - radius)
         kinetic = 0.5 * 7 / 5 * (pair.velocity[1, :3] ** 2).sum()
         errors.append(kinetic / (G * (radius + R) * (np.cos(lean) - np.cos(angle))) - 1.0)
-    return Row(
-        "sphere rolling off a sphere, order in dt of its energy", 1.0, order(errors), 0.1, "(7/10) v^2 = g h"
-    )
+    row("sphere rolling off a sphere, order in dt of its energy", 1.0, order(errors), 0.1, "(7/10) v^2 = g h")
 
 
-@checks
-def cloud() -> list[Row]:
+def test_cloud(row):
     rng = np.random.default_rng(3)
     box = (0.017, 0.016, 0.05)
     position, radius = random_lattice(np.array([3e-3, 5e-3]), np.array([20, 10]), box, rng)
@@ -222,10 +194,8 @@ def cloud() -> list[Row]:
         gained, last = max(gained, (now - last) / start), now
         deep = max(deep, -float(pile.contacts(1e-6)[1].min(initial=0.0)) / radius.min())
     source = "Moreau-Jean scheme, inelastic contacts: dissipative"
-    return [
-        Row("thirty spheres fall to rest, energy gained in a step", 0.0, gained, 1e-12, source),
-        Row("thirty spheres fall to rest, penetration over radius", 0.0, deep, 1e-4, "Signorini"),
-    ]
+    row("thirty spheres fall to rest, energy gained in a step", 0.0, gained, 1e-12, source)
+    row("thirty spheres fall to rest, penetration over radius", 0.0, deep, 1e-4, "Signorini")
 
 
 def thrown(members: int) -> bytes:
@@ -249,11 +219,8 @@ def thrown(members: int) -> bytes:
     return b"".join(told)
 
 
-@checks
-def threads() -> list[Row]:
+def test_threads(row):
     one, source = thrown(1), "positions, velocities and impulses of every step"
     differs = {members: float(thrown(members) != one) for members in (2, 3)}
-    return [
-        Row(f"pouring on one thread and on {members}, results that differ", 0.0, found, 0.0, source)
-        for members, found in differs.items()
-    ]
+    for members, found in differs.items():
+        row(f"pouring on one thread and on {members}, results that differ", 0.0, found, 0.0, source)

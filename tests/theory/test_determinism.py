@@ -24,12 +24,9 @@ from asphalt_nscd.nscd.stepping.break_modes import StandBy
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.specimen.granular_bed import PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
-from asphalt_nscd.verification.methods import beam
-from asphalt_nscd.verification.row import Checks, Row
-from asphalt_nscd.verification.specimens import QUICK_LAW, jittered_beam
-from asphalt_nscd.verification.spheres import advanced, balls
-
-checks = Checks()
+from theory.specimens import QUICK_LAW, jittered_beam
+from theory.test_methods import beam
+from theory.test_spheres import advanced, balls
 
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
@@ -38,8 +35,8 @@ def digest() -> str:
     """Of the states of a pile in motion, of a condensed run with breaking bonds, a reduced one, and contacts."""
     from asphalt_nscd.nscd import solve_contacts
     from asphalt_nscd.nscd.stepping.scheme import VARIABLES
-    from asphalt_nscd.verification.assemblies import box_stack
-    from asphalt_nscd.verification.methods import march
+    from theory.assemblies import box_stack
+    from theory.test_methods import march
 
     box = (0.017, 0.016, 0.05)
     position, radius = random_lattice(
@@ -60,9 +57,7 @@ def digest() -> str:
 
 def digest_elsewhere(threads: int) -> str:
     """The same in a process of its own, as steps of the command line run, with so many threads allowed."""
-    script = (
-        "import asphalt_nscd.cli; from asphalt_nscd.verification.determinism import digest; print(digest())"
-    )
+    script = "import asphalt_nscd.cli; from theory.test_determinism import digest; print(digest())"
     environment = os.environ | {name: str(threads) for name in THREADS}
     done = subprocess.run(
         [sys.executable, "-c", script], env=environment, capture_output=True, text=True, check=True
@@ -70,21 +65,18 @@ def digest_elsewhere(threads: int) -> str:
     return done.stdout.strip()
 
 
-@checks
-def bits() -> list[Row]:
+def test_bits(row):
     one, again, two = (digest_elsewhere(threads) for threads in (1, 1, 2))
     source = "SHA-256 of all states"
-    return [
-        Row("two runs, results that differ", 0.0, float(one != again), 0.0, source),
-        Row("one thread allowed and two, results that differ", 0.0, float(one != two), 0.0, source),
-    ]
+    row("two runs, results that differ", 0.0, float(one != again), 0.0, source)
+    row("one thread allowed and two, results that differ", 0.0, float(one != two), 0.0, source)
 
 
 class _Stopped(Exception):
     pass
 
 
-def tested(method: str, scheme: str, checkpoint: Checkpoint | None = None, stop_after: int = -1) -> bytes:
+def outcome(method: str, scheme: str, checkpoint: Checkpoint | None = None, stop_after: int = -1) -> bytes:
     """All that a bending test with breaking bonds gives, if it is not stopped; reduced, then full."""
     specimen, system = jittered_beam(shape=(10, 9, 8)), beam(10, 9, 8)
     height = specimen.position[:, 2]
@@ -103,17 +95,14 @@ def tested(method: str, scheme: str, checkpoint: Checkpoint | None = None, stop_
     return b"".join(array.tobytes() for array in (record.force, record.velocity, broken, account))
 
 
-@checks
-def restart() -> list[Row]:
-    rows = []
+def test_restart(row):
     for method, scheme in (("condensed", "fitted"), ("reduced", "euler")):
         with tempfile.TemporaryDirectory() as folder:
             checkpoint = Checkpoint(Path(folder, "run.h5"), 4, {})
             # between checkpoints, which are kept every four steps: some steps are made twice
             for stop_after in (11, 30):
                 with suppress(_Stopped):
-                    tested(method, scheme, checkpoint, stop_after)
-            differs = tested(method, scheme, checkpoint) != tested(method, scheme)
+                    outcome(method, scheme, checkpoint, stop_after)
+            differs = outcome(method, scheme, checkpoint) != outcome(method, scheme)
         what = f"{method}, {scheme}, stopped twice and continued, results that differ"
-        rows.append(Row(what, 0.0, float(differs), 0.0, "the run without a stop"))
-    return rows
+        row(what, 0.0, float(differs), 0.0, "the run without a stop")
