@@ -10,8 +10,7 @@ import pytest
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.system import opening_operator
 from asphalt_nscd.specimen.network import bond_network, facet_network
-from asphalt_nscd.specimen.prism import cut_prism, pull, static_ratio
-from asphalt_nscd.specimen.system import bending_system
+from asphalt_nscd.specimen.prism import cut_prism, pull
 from asphalt_nscd.specimen.trimming import trim
 
 STRAIN = np.array([[1.0, 0.4, -0.7], [0.4, -0.6, 0.2], [-0.7, 0.2, 0.3]])
@@ -98,13 +97,6 @@ def test_a_prism_cut_out_of_a_layer(make_beam):
     assert np.abs(x).max() < 9e-3 and np.abs(y).max() < 7e-3 and 0.0 < z.min() and z.max() < 50e-3
     assert prism.radius.size == pytest.approx(960 * 18 * 14 * 50 / (80 * 24 * 32), rel=0.15)
     assert pull(prism, EQUAL)[0] == pytest.approx(1.0, abs=1e-5)
-
-
-@pytest.mark.parametrize(("seed", "fill"), [(1, 0.42), (2, 0.3)])
-def test_bending_has_the_modulus_of_the_law(make_beam, seed, fill):
-    """Whatever the packing, within what a dozen spheres in the section can tell."""
-    beam = make_beam(seed=seed, shape=(6, 4, 30), fill=fill, area="facets")
-    assert static_ratio(bending_system(beam, 0.35, 2.7e6, 0.7), beam.geometry) == pytest.approx(1.0, abs=0.03)
 
 
 def test_trim_forms_facets():

@@ -31,7 +31,7 @@ def row(request) -> Callable[..., None]:
         found = judged(*values, **options)
         theme = request.path.stem.removeprefix("test_")
         request.node.user_properties.append(("row", {"theme": theme} | found))
-        assert found["verdict"] == PASSED, found
+        assert found["verdict"] == PASSED, "{name}: {found:.10g}, not {expected:.10g}".format(**found)
 
     return judge
 

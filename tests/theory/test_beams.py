@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from scipy.integrate import quad
 
 from asphalt_nscd.measurements.twopoint import Geometry, form_factor, mass_factor
@@ -15,7 +16,7 @@ from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedSteppe
 from asphalt_nscd.nscd.stepping.harmonic import actuator_stiffness, driving_force
 from asphalt_nscd.nscd.stepping.integrator import March
 from asphalt_nscd.nscd.stepping.scheme import Scheme
-from asphalt_nscd.specimen.system import bending_system
+from theory.marches import OMEGA, beam, followed, march, stiffness
 from theory.rows import order
 from theory.specimens import QUICK_LAW, chain, elastic, jittered_beam, laminated_beam
 
@@ -80,6 +81,7 @@ def test_held_chain(row):
     row("chain between two supports, force of the head (N)", expected, force, 1e-9, "symmetry")
 
 
+@pytest.mark.slow
 def test_oscillator(row):
     """A mass on an elastic bond, let go: amplitude and phase after four periods; second order and first."""
     errors: dict[str, list[float]] = {"euler": [], "fitted": []}
@@ -149,28 +151,20 @@ def test_moving_mass(row):
 
 def test_rig_devices(row):
     """Spring and mass at the head, clamp to the actuator: stiffnesses in parallel and in series."""
-    system = bending_system(jittered_beam(), 0.35, 2.7e6, 0.7)
-    omega, steps = 80 * np.pi, 100
-    dt = 2 * np.pi / omega / steps
-    source = "1/(C + 1/(H + k - m omega^2))"
+    steps, source = 100, "1/(C + 1/(H + k - m omega^2))"
+    sine = 1e-6 * np.sin(2 * np.pi / steps * np.arange(1, 4 * steps + 1))
     for name, devices in (
         ("guide spring", HeadDevices(0.0, 1e5)),
         ("moving mass", HeadDevices(0.0, 0.0, 0.0, 2.0)),
         ("clamp", HeadDevices(2e-6)),
         ("clamp and guide spring", HeadDevices(2e-6, 1e5)),
     ):
-        head = driving_force(system, QUICK_LAW.discrete_modulus(omega, 0.0), omega)
+        head = driving_force(beam(), QUICK_LAW.discrete_modulus(OMEGA, 0.0), OMEGA)
         clamp, spring, _, mass = devices.of_head
-        exact = 1 / (clamp + 1 / (head + spring - mass * omega**2))
-        scheme, state = Scheme.named("fitted", omega * dt), CondensedState.at_rest(system, QUICK_LAW)
-        march = March(
-            CondensedStepper(system, QUICK_LAW, dt / scheme.a, state, devices), scheme, QUICK_LAW, dt
-        )
-        force = np.array([march.move_to(1e-6 * np.sin(omega * dt * (n + 1))) for n in range(4 * steps)])
-        carrier = np.exp(-1j * omega * dt * np.arange(3 * steps + 1, 4 * steps + 1))
-        found = 2j * (force[3 * steps :] * carrier).mean() / 1e-6
-        other = actuator_stiffness(head, devices, omega)
+        exact = 1 / (clamp + 1 / (head + spring - mass * OMEGA**2))
+        run = march(beam(), QUICK_LAW, 2 * np.pi / OMEGA / steps, "fitted", devices=devices)
+        found = stiffness(followed(run, sine), steps, 1e-6)
         row(f"rig with a {name}, apparent |F/z|", abs(exact), abs(found), 1e-5, source)
-        other = actuator_stiffness(head, devices, omega)
+        other = actuator_stiffness(head, devices, OMEGA)
         phase, apart = np.angle(exact), "the same, frequency domain"
         row(f"rig with a {name}, phase (rad)", phase, np.angle(other), 1e-12, apart)

@@ -12,8 +12,8 @@ from asphalt_nscd.bending.condensing import Bonds
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.specimen.granular_bed import LARGEST_RATIO, PouringNumerics
 from asphalt_nscd.specimen.preparation import unrest
+from theory.grains import R, balls
 from theory.specimens import chain
-from theory.test_spheres import R, balls
 
 
 def refused(ask: Callable[[], Any]) -> float:

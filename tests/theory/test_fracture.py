@@ -11,6 +11,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+import pytest
 
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
@@ -20,9 +21,11 @@ from asphalt_nscd.nscd.stepping.integrator import March
 from asphalt_nscd.nscd.stepping.reduced_model import ritz_basis, shifted_factor
 from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import History, Scheme
+from theory.marches import beam
 from theory.specimens import QUICK_LAW
 from theory.test_accounts import ACCOUNT
-from theory.test_methods import beam
+
+pytestmark = pytest.mark.slow
 
 BREAKS = 100
 DT, PERIOD = 5e-5, 20  # s; steps in a cycle

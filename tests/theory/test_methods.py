@@ -3,61 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
+import pytest
 
-from asphalt_nscd.nscd.bonds.law import AnyLaw, BondLaw
-from asphalt_nscd.nscd.bonds.system import BondedSystem
-from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.stepping.condensed import CondensedState
 from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
-from asphalt_nscd.nscd.stepping.integrator import March, Stepper
-from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
-from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
-from asphalt_nscd.nscd.stepping.scheme import Scheme
-from asphalt_nscd.specimen.system import bending_system
+from theory.marches import FREQUENCY, OMEGA, beam, followed, march, stiffness
 from theory.rows import order
-from theory.specimens import QUICK_LAW, jittered_beam, mixed
+from theory.specimens import QUICK_LAW, mixed
 
-FREQUENCY, OMEGA = 40.0, 80 * np.pi
 # of two spheres across, and soft enough for Gauss-Seidel to converge
 SOFT = BondLaw(72.9e6, 0.18e6, np.array([145e6]), np.array([0.231e6]))
-
-
-@cache
-def beam(*shape: int) -> BondedSystem:
-    """Two-point bending of a small `jittered_beam` of `shape` cells, (3, 2, 9) if none is given."""
-    return bending_system(jittered_beam(shape=shape or (3, 2, 9)), 0.35, 2.7e6, 0.7)
-
-
-def march(
-    method: str, scheme_name: str, system: BondedSystem, law: AnyLaw, steps: int, omega: float = OMEGA
-) -> March:
-    """A run from rest before its first step, `omega` in rad/s; `method` "reduced" takes one law for all bonds."""
-    dt = 2 * np.pi / omega / steps
-    scheme = Scheme.named(scheme_name, omega * dt)
-    stepper: Stepper
-    if method == "reduced":
-        assert isinstance(law, BondLaw), "the reduced model has one law for all bonds"
-        stepper = ReducedStepper(ReducedModel(system, ritz_basis(system, 12)), law, dt / scheme.a, 1e-6)
-    else:
-        stepper = CondensedStepper(system, law, dt / scheme.a, CondensedState.at_rest(system, law))
-    return March(stepper, scheme, law, dt)
-
-
-def stiffness(force: np.ndarray, steps: int, amplitude: float) -> complex:
-    """Complex stiffness [N/m] of the head in the last cycle of a sine, from its `force` (n,) [N] at each step."""
-    angle = 2 * np.pi / steps * np.arange(force.size - steps + 1, force.size + 1)
-    return complex(2j * (force[-steps:] * np.exp(-1j * angle)).mean() / amplitude)
 
 
 def stepped(method: str, scheme: str, steps: int, cycles: int = 5) -> complex:
     """Apparent stiffness [N/m] of the weightless beam by time stepping, from the last of its cycles."""
     system = replace(beam(), load=np.zeros(beam().mass.size))
-    run = march(method, scheme, system, QUICK_LAW, steps)
+    run = march(system, QUICK_LAW, 2 * np.pi / OMEGA / steps, scheme, method)
     sine = 1e-7 * np.sin(2 * np.pi / steps * np.arange(1, cycles * steps + 1))
-    return stiffness(np.array([run.move_to(place) for place in sine]), steps, 1e-7)
+    return stiffness(followed(run, sine), steps, 1e-7)
 
 
 def of_the_law() -> complex:
@@ -91,11 +58,9 @@ def test_order_in_dt(row):
     euler = [abs(stepped("reduced", "euler", steps) - exact) for steps in (200, 400)]
 
     def pulse(steps: int) -> float:
-        scheme, dt = Scheme.named("fitted", 0.0), 8e-3 / steps
-        stepper = ReducedStepper(ReducedModel(beam(), ritz_basis(beam(), 12)), QUICK_LAW, dt / scheme.a, 1e-6)
-        run = March(stepper, scheme, QUICK_LAW, dt)
+        run = march(beam(), QUICK_LAW, 8e-3 / steps, "fitted", "reduced", omega=0.0)
         # a pulse that begins smoothly: a kink there would cost the second order
-        return [run.move_to(1e-6 * np.sin(np.pi * n / steps) ** 4) for n in range(1, 5 * steps // 8 + 1)][-1]
+        return followed(run, 1e-6 * np.sin(np.pi * np.arange(1, 5 * steps // 8 + 1) / steps) ** 4)[-1]
 
     reference = pulse(1024)
     fitted = [abs(pulse(steps) - reference) for steps in (64, 128)]
@@ -103,13 +68,13 @@ def test_order_in_dt(row):
     row("bending by a pulse, order in dt of the two-step scheme", 2.0, order(fitted), 0.3, "BDF2")
 
 
+@pytest.mark.slow
 def test_gauss_seidel(row):
     """Run to convergence it agrees; the error follows the tolerance in first order."""
     system, steps = beam(2, 2, 4), 50
     sine = 1e-6 * np.sin(2 * np.pi / steps * np.arange(1, 21))
     dt = 1 / FREQUENCY / steps
-    reference = march("condensed", "euler", system, SOFT, steps)
-    expected = np.array([reference.move_to(place) for place in sine])
+    expected = followed(march(system, SOFT, 2 * np.pi / OMEGA / steps), sine)
     errors = []
     for tolerance in (1e-5, 1e-7, 1e-9):
         stepper = SweepingStepper(system, SOFT, dt, CondensedState.at_rest(system, SOFT), tolerance, 100_000)
@@ -124,9 +89,9 @@ def test_breaking_alike(row):
     """Beyond yield: the same bonds in the same order, the same forces, by full and reduced stepping."""
     steps, force, broken, source = 100, [], [], "condensed against reduced"
     for method in ("condensed", "reduced"):
-        run = march(method, "euler", beam(), QUICK_LAW, steps)
+        run = march(beam(), QUICK_LAW, 2 * np.pi / OMEGA / steps, method=method)
         sine = 8e-5 * np.sin(2 * np.pi / steps * np.arange(1, steps + 1))
-        force.append(np.array([run.move_to(place) for place in np.append(np.zeros(10), sine)]))
+        force.append(followed(run, np.append(np.zeros(10), sine)))
         broken.append(list(run.stepper.state.broken))
     same = sum(a == b for a, b in zip(*broken, strict=False)) if broken[0] else np.nan
     difference = np.abs(force[0] - force[1]).max() / np.abs(force[0]).max()
@@ -142,13 +107,12 @@ def test_a_law_for_each_bond(row):
     modulus, g = law.discrete_modulus(OMEGA, dt), system.operator.toarray()
     dense = (g.T * (system.weight * modulus)) @ g + rate**2 * np.diag(system.mass)
     exact = 1.0 / np.linalg.inv(dense)[system.driven, system.driven]
-    run = march("condensed", "euler", system, law, steps)
     sine = np.sin(2 * np.pi / steps * np.arange(1, 12 * steps + 1))
-    found = stiffness(np.array([run.move_to(1e-7 * place) for place in sine]), steps, 1e-7)
+    found = stiffness(followed(march(system, law, dt), 1e-7 * sine), steps, 1e-7)
     force, broken = [], []
     for shared in (QUICK_LAW, mixed(beam(), (QUICK_LAW, QUICK_LAW))):
-        run = march("condensed", "fitted", beam(), shared, steps)
-        force.append(np.array([run.move_to(8e-5 * place) for place in sine[:steps]]))
+        run = march(beam(), shared, dt, "fitted")
+        force.append(followed(run, 8e-5 * sine[:steps]))
         broken.append(run.stepper.state.broken)
     difference = np.abs(force[0] - force[1]).max() / np.abs(force[0]).max() if broken[0] else np.nan
     same = sum(a == b for a, b in zip(*broken, strict=False))

@@ -36,18 +36,6 @@ def test_reactions_act_on_the_bodies_as_forces_at_the_point(bodies):
     np.testing.assert_allclose(forces.reshape(-1, 6), naive_forces(*bodies, reaction), rtol=0, atol=1e-14)
 
 
-def test_rigid_motion_opens_nothing_between_moving_bodies(bodies):
-    """All bodies turn about one axis and drift: bonds between spheres and to the head stay shut."""
-    rng = np.random.default_rng(3)
-    drift, spin = rng.normal(size=(2, 3))
-    first, second, *_, position = bodies
-    velocity = np.hstack([drift + np.cross(spin, position), np.tile(spin, (len(position), 1))])
-    opening = (opening_operator(*bodies) @ velocity.ravel()).reshape(-1, 3)
-    moving = np.maximum(first, second) < len(position)
-    assert np.abs(opening[moving]).max() < 1e-14
-    assert np.abs(opening[~moving]).max() > 0.1  # against the fixed foot it does show
-
-
 def test_finite_differences(bodies):
     """Points of action carried by small finite rotations: G is their relative displacement, to O(eps)."""
     first, second, frame, point, position = bodies

@@ -1,22 +1,8 @@
-"""The bond law alone against the analytic Burgers law: creep, relaxation, steady oscillation."""
+"""A step of the bond law: the balance of its elements, and its modulus in steady oscillation."""
 
 import numpy as np
 import pytest
-
-from asphalt_nscd.nscd.bonds.law import BondLaw
-from asphalt_nscd.rheology.burgers import Burgers
-
-BURGERS = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)  # 15 degC; relaxation times 153 ms and 16 ms
-LAW = BondLaw(24.3e9, 3.71e9, np.array([48.4e9]), np.array([0.773e9]))
-CHAIN = BondLaw(24.3e9, 3.71e9, np.array([48.4e9, 90e9]), np.array([0.773e9, 0.18e9]))
-FREQUENCY = 10.0
-DIVISIONS = np.array([1, 2, 4, 8, 16])  # of a first step of 0.5 ms
-
-
-def chain_creep(time):
-    """Spring, dashpot and the two Kelvin elements of CHAIN summed by hand."""
-    delayed = (1 - np.exp(-time * 48.4e9 / 0.773e9)) / 48.4e9 + (1 - np.exp(-time * 90e9 / 0.18e9)) / 90e9
-    return 1 / 24.3e9 + time / 3.71e9 + delayed
+from theory.test_law import BURGERS, CHAIN, FREQUENCY, LAW, steady_modulus
 
 
 def chain_modulus(omega):
@@ -24,78 +10,12 @@ def chain_modulus(omega):
     return 1 / (1 / 24.3e9 + 1 / (s * 3.71e9) + 1 / (48.4e9 + s * 0.773e9) + 1 / (90e9 + s * 0.18e9))
 
 
-def creep(law, time, dt):
-    """Opening [m] after a unit tension of 1 Pa has acted for `time`."""
-    step = law.step(dt)
-    sigma, kelvin, opening = np.zeros(1), np.zeros((law.kelvin_springs.size, 1)), np.zeros(1)
-    for _ in range(round(time / dt)):
-        explicit = step.explicit_part(sigma, kelvin)
-        velocity = explicit + step.compliance  # U+ = b - S sigma+ at sigma+ = -1
-        opening += dt * velocity
-        sigma, kelvin = step.update(explicit, velocity, kelvin)
-        np.testing.assert_allclose(sigma, -1.0, rtol=1e-12)
-    return opening[0]
-
-
-def follow(law, opening, dt):
-    """Stress (n,) [Pa] at a prescribed history of the opening (n,) [m], from rest."""
-    step = law.step(dt)
-    sigma, kelvin = np.zeros(1), np.zeros((law.kelvin_springs.size, 1))
-    history = np.empty(opening.size)
-    for n, velocity in enumerate(np.diff(opening, prepend=0.0) / dt):
-        sigma, kelvin = step.update(step.explicit_part(sigma, kelvin), velocity, kelvin)
-        history[n] = sigma[0]
-    return history
-
-
-def steady_modulus(law, frequency, steps, cycles=60):
-    """-sigma/u of a steady oscillation with `steps` per cycle; 60 cycles leave transients of 1e-10."""
-    time = np.arange(1, cycles * steps + 1) / (frequency * steps)
-    angle = 2 * np.pi * frequency * time
-    sigma = follow(law, np.sin(angle), 1 / (frequency * steps))
-    last = slice(-steps, None)
-    return -2j * (sigma[last] * np.exp(-1j * angle[last])).mean()
-
-
-def order_of(errors, steps=DIVISIONS):
-    """Slope of the error against the step length on logarithmic axes."""
-    return -np.polyfit(np.log(steps), np.log(np.abs(errors)), 1)[0]
-
-
-@pytest.mark.parametrize(("law", "exact"), [(LAW, BURGERS.creep_compliance), (CHAIN, chain_creep)])
-def test_creep_converges_in_first_order(law, exact):
-    errors = [creep(law, 0.02, 5e-4 / n) / exact(0.02) - 1 for n in DIVISIONS]
-    assert abs(errors[-1]) < 1e-3
-    assert order_of(errors) == pytest.approx(1.0, abs=0.05)
-
-
-def test_relaxation_converges_in_first_order():
-    """A sudden opening of 1 m/m calls forth tension, sigma < 0, that decays as E(t)."""
-    errors = []
-    for n in DIVISIONS:
-        dt = 5e-4 / n
-        sigma = follow(LAW, np.ones(round(0.02 / dt)), dt)
-        assert (sigma < 0).all()
-        # the jump happens within the first step: half a step of shift is part of the first-order error
-        errors.append(-sigma[-1] / BURGERS.relaxation_modulus(0.02) - 1)
-    assert abs(errors[-1]) < 2e-3
-    assert order_of(errors) == pytest.approx(1.0, abs=0.05)
-
-
-@pytest.mark.parametrize(("law", "exact"), [(LAW, BURGERS.complex_modulus), (CHAIN, chain_modulus)])
-def test_oscillation_converges_in_first_order(law, exact):
-    modulus = exact(2 * np.pi * FREQUENCY)
-    errors = [steady_modulus(law, FREQUENCY, 60 * n, cycles=20) / modulus - 1 for n in DIVISIONS]
-    assert abs(errors[-1]) < 2e-3
-    assert order_of(errors) == pytest.approx(1.0, abs=0.05)
-
-
 @pytest.mark.parametrize("law", [LAW, CHAIN])
 @pytest.mark.parametrize("steps", [20, 500])
 def test_discrete_modulus_is_the_steady_state_of_the_scheme(law, steps):
     """To 1e-9, what is left of the transient; the scheme's own deviation from the law is 1e-2 to 1e-4."""
     omega, dt = 2 * np.pi * FREQUENCY, 1 / (FREQUENCY * steps)
-    stepped = steady_modulus(law, FREQUENCY, steps)
+    stepped = steady_modulus(law, steps, cycles=60)
     assert stepped == pytest.approx(law.discrete_modulus(omega, dt), rel=1e-9)
     assert abs(stepped / law.discrete_modulus(omega, 0.0) - 1) > 1e-4
 

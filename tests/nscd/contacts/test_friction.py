@@ -9,7 +9,6 @@ from scipy import sparse
 from theory.assemblies import (
     GRAVITY_STEP,
     arch,
-    block_on_slope,
     box_stack,
     spheres_in_a_box,
 )
@@ -92,18 +91,6 @@ def test_plain_sweeps_come_to_the_same(friction):
         w, q = random_problem(seed, 5)
         expected = naive_contacts(w, q, friction)
         np.testing.assert_allclose(solved(w, q, friction), expected, atol=1e-10)
-
-
-@pytest.mark.parametrize("slope", [0.1, 0.4])
-def test_block_on_a_slope(slope):
-    """Rests while tan(slope) < mu; else slides with g (sin - mu cos). The feet carry the weight."""
-    block, mu = block_on_slope(slope), 0.2
-    r = solved(block.W, block.q, mu, 1e-10)
-    after = block.velocity_after(r)[0]
-    weight = GRAVITY_STEP * np.cos(slope)
-    assert r[::3].sum() == pytest.approx(weight * block.mass[0], rel=1e-9)
-    slides = GRAVITY_STEP * np.sin(slope) - mu * weight if np.tan(slope) > mu else 0.0
-    np.testing.assert_allclose(after, [slides, 0, 0, 0, 0, 0], atol=1e-8 * GRAVITY_STEP)
 
 
 STALLING = {

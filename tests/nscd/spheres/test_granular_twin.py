@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from naive.granular import naive_step
-from nscd.spheres.grains import (
+from theory.grains import (
     balls,
     mass,
     numerics,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from nscd.spheres.grains import (
+from theory.grains import (
     cloud,
     numerics,
 )

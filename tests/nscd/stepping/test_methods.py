@@ -1,4 +1,4 @@
-"""Four ways to one complex modulus: condensed, reduced, Gauss-Seidel run to convergence, frequency domain."""
+"""Three ways to one complex modulus: condensed, reduced, frequency domain."""
 
 from __future__ import annotations
 
@@ -7,10 +7,8 @@ import pytest
 
 from asphalt_nscd.measurements.signals import harmonic_response
 from asphalt_nscd.nscd.bonds.implicit_operator import factors
-from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.stepping import harmonic
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
@@ -30,14 +28,10 @@ def stepped(system, law, dt, method, cycles) -> complex:
     """Force per displacement [N/m] in the last two cycles."""
     time = dt * np.arange(1, round(cycles / FREQUENCY / dt) + 1)
     driven = np.concatenate([np.zeros(REST), AMPLITUDE * np.sin(OMEGA * time)])
-    state = CondensedState.at_rest(system, law)
     if method == "reduced":
         force = ReducedStepper(ReducedModel(system, ritz_basis(system, 12)), law, dt, 1e-6).run(driven)[0]
     else:
-        stepper = {
-            "condensed": lambda: CondensedStepper(system, law, dt, state),
-            "sweeps": lambda: SweepingStepper(system, law, dt, state, 1e-12, 1_000_000),
-        }[method]()
+        stepper = CondensedStepper(system, law, dt, CondensedState.at_rest(system, law))
         force = np.array([stepper.advance(v) for v in np.diff(driven, prepend=0.0) / dt])
     found = harmonic_response(time, force[REST:], driven[REST:], FREQUENCY, cycles=2)
     return found.force_amplitude / found.displacement_amplitude * np.exp(1j * found.phase)
@@ -57,36 +51,6 @@ def test_stepping_is_the_frequency_domain_of_its_scheme(beam, quick_law, method,
         stepped(system, quick_law, 5e-5, method, 5), of_the_scheme(system, quick_law, 5e-5)
     )
     assert norm < 1e-8 and phase < 1e-6
-
-
-def test_gauss_seidel_run_to_convergence(make_beam):
-    """A small beam with soft bonds, on which sweeps converge: 1e-5 and 1e-3 deg at a change of 1e-12."""
-    law = BondLaw(72.9e6, 0.18e6, np.array([145e6]), np.array([0.231e6]))
-    system = bending_system(make_beam(shape=(2, 2, 4)), 0.35, 2.7e6, 0.7)
-    expected = of_the_scheme(system, law, 5e-4)
-    for method in ("sweeps", "condensed", "reduced"):
-        norm, phase = deviations(stepped(system, law, 5e-4, method, 4), expected)
-        assert norm < 1e-5 and phase < 1e-3
-
-
-def test_step_length_acts_in_first_order(beam_system, quick_law):
-    """The scheme's frequency response tends to that of the law itself; at 5e-5 s and 40 Hz by 3e-3."""
-    exact = driving_force(beam_system, quick_law.discrete_modulus(OMEGA, 0.0), OMEGA)
-    errors = [
-        abs(of_the_scheme(beam_system, quick_law, dt) / exact - 1) for dt in (1e-4, 5e-5, 2.5e-5, 1.25e-5)
-    ]
-    assert errors[1] < 5e-3
-    np.testing.assert_allclose(np.log2(np.array(errors[:-1]) / errors[1:]), 1.0, atol=0.05)
-
-
-def test_frequency_domain_against_dense_equations(beam_system):
-    """(E* K - omega^2 M) u = f solved as a whole, the driven row being the force."""
-    modulus, omega = (2.0 + 0.7j) * 1e9, 3e4
-    dense = modulus * beam_system.stiffness().toarray() - omega**2 * np.diag(beam_system.mass)
-    flexibility = np.linalg.inv(dense)[beam_system.driven, beam_system.driven]
-    assert driving_force(beam_system, modulus, omega) == pytest.approx(1 / flexibility, rel=1e-9)
-    # passive: the force leads a displacement of positive loss
-    assert driving_force(beam_system, modulus, 1.0).imag > 0
 
 
 @pytest.mark.parametrize("most", [1, harmonic.MOST_ITERATIONS])

@@ -12,7 +12,7 @@ R = 2.0**-9  # m; a power of two, so that spheres touch to the last digit
 
 
 def numerics(**changes) -> PouringNumerics:
-    """Solved to rounding, overlaps never undone."""
+    """Solved to rounding; overlaps are never undone, which would add motion that the theory does not know."""
     tight = {"time_step": 1e-4, "tolerance": 1e-14, "most_sweeps": 5000, "recovery_speed": 0.0}
     return PouringNumerics(**tight | changes)
 
@@ -25,6 +25,13 @@ def balls(
         position, np.broadcast_to(radius, len(position)).astype(float), box, 2600.0, friction, restitution
     )
     bed.gravity = np.asarray(gravity, float)
+    return bed
+
+
+def advanced(bed: GranularBed, steps: int, settings: PouringNumerics | None = None) -> GranularBed:
+    """The bed itself, advanced by `steps`."""
+    for _ in range(steps):
+        bed.advance(settings or numerics())
     return bed
 
 
@@ -44,6 +51,7 @@ def momentum(bed: GranularBed) -> np.ndarray:
 
 
 def angular_momentum(bed: GranularBed) -> np.ndarray:
+    """About the origin; a spin s, the velocity of the surface, adds m 2/5 r s."""
     n, m = bed.radius.size, mass(bed)[:, None]
     v, s = bed.velocity[:n, :3], bed.velocity[:n, 3:]
     return (m * np.cross(bed.position, v) + 0.4 * m * bed.radius[:, None] * s).sum(axis=0)
@@ -59,12 +67,9 @@ def deepest(bed: GranularBed) -> float:
     return float(-min(bed.contacts(1e-6)[1].min(initial=0.0), 0.0))
 
 
-def on_incline(slope: float, friction: float, steps: int = 200) -> GranularBed:
+def on_incline(slope: float, friction: float) -> GranularBed:
     tilted = (G * np.sin(slope), 0.0, -G * np.cos(slope))
-    ball = balls([0.1, 0.5, R], friction=friction, gravity=tilted)
-    for _ in range(steps):
-        ball.advance(numerics())
-    return ball
+    return advanced(balls([0.1, 0.5, R], friction=friction, gravity=tilted), 200)
 
 
 def cloud(seed, restitution, friction):
