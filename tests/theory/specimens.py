@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy import sparse
 
 from asphalt_nscd.measurements.fourpoint import Beam
@@ -71,31 +72,29 @@ def jittered_beam(
 
 
 def system_of(
-    operator: np.ndarray,
-    weight: np.ndarray | float,
-    mass: np.ndarray | float,
-    driven: int,
-    load: np.ndarray | float = 0.0,
-    gap: float = 1.0,
+    rows: ArrayLike,
+    weight: ArrayLike,
+    mass: ArrayLike,
+    driven: int = 0,
+    load: ArrayLike = 0.0,
+    gap: ArrayLike = 1.0,
+    strength: ArrayLike = np.inf,
     friction: float = 0.0,
 ) -> BondedSystem:
-    """A system of infinite strength from dense arrays; bonds do not break.
+    """A system from dense arrays, or one number each.
 
-    `operator` (3 b, d) gives openings of the bonds by the velocities, normal first in each. `weight` (3 b,) in m are
-    form factors, `mass` (d,) in kg (of rotations kg m2), `load` (d,) in N (moments N m), or one number each. `gap` in m
-    is of all bonds. `driven` is the prescribed degree of freedom.
+    `rows` (3 b, d) give openings of the bonds by the velocities, normal first in each. `weight` (3 b,) in m are form
+    factors, `mass` (d,) in kg (of rotations kg m2), `load` (d,) in N (moments N m), `gap` (b,) in m, `strength` (b,) in
+    N. `driven` is the prescribed degree of freedom.
     """
+    operator = sparse.csr_matrix(np.asarray(rows, float))
     bonds, d = operator.shape[0] // 3, operator.shape[1]
-    return BondedSystem(
-        operator=sparse.csr_matrix(operator),
-        weight=np.broadcast_to(weight, 3 * bonds).astype(float),
-        mass=np.broadcast_to(mass, d).astype(float),
-        load=np.broadcast_to(load, d).astype(float),
-        driven=driven,
-        gap=np.full(bonds, gap),
-        strength=np.full(bonds, np.inf),
-        friction=friction,
+    sizes = (3 * bonds, d, d, bonds, bonds)
+    weight, mass, load, gap, strength = (
+        np.broadcast_to(value, size).astype(float)
+        for value, size in zip((weight, mass, load, gap, strength), sizes)
     )
+    return BondedSystem(operator, weight, mass, load, driven, gap, strength, friction)
 
 
 def chain(bodies: int, weight: float, mass: float, load: float = 0.0) -> BondedSystem:

@@ -27,7 +27,7 @@ def block_on_ground(gravity: np.ndarray, friction: float, gap: float = 0.0) -> B
     inertia = 0.4 / 12 * np.array([0.03**2 + 0.008**2, 0.04**2 + 0.008**2, 0.04**2 + 0.03**2])
     mass = np.concatenate([[0.4] * 3, inertia, np.ones(6)])
     load = np.concatenate([0.4 * gravity, np.zeros(9)])
-    return system_of(operator.toarray(), 1e-3, mass, 6, load, gap, friction)
+    return system_of(operator.toarray(), 1e-3, mass, 6, load, gap, friction=friction)
 
 
 def slide(slope: float, friction: float, steps: int = 40, dt: float = 1e-3) -> np.ndarray:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from types import SimpleNamespace
 
 import numpy as np
@@ -114,37 +113,6 @@ def test_parts_have_about_equal_work(members, kind):
         assert [s for part in parts for s in part] == list(range(kind, slabs, 2))
         for part in parts:
             assert work[part].sum() <= work[kind::2].sum() / members + work[kind::2].max() + 1e-12
-
-
-def states(members: int) -> str:
-    """Digest of spheres thrown into a long box under a driven lid, step by step."""
-    rng = np.random.default_rng(3)
-    box = (0.09, 0.014, 0.03)
-    position, radius = random_lattice(np.array([2e-3, 4e-3]), np.array([500, 40]), box, rng)
-    pile = GranularBed.in_box(position, radius, box, 2600.0, 0.2)
-    pile.velocity[: radius.size] = rng.normal(0.0, 0.3, (radius.size, 6))
-    numerics, told, slabs, pressed = PouringNumerics.of(radius, 4e-4), [], 0, 0
-    with Team(members) as pile.team:
-        for step in range(120):
-            if step == 60:
-                pile.hang_wall(pile.top(), 0.01 * pile.weight() / 9.81)
-                pile.drive[:] = -0.3, 3.0 * pile.weight() * 4e-4
-            pile.advance(numerics)
-            pressed += pile.touching_wall().size
-            slabs = max(slabs, pile._slabs.begin.size - 2)
-            told += [pile.position.copy(), pile.velocity.copy(), pile.impulse.copy()]
-    assert slabs >= 4
-    assert pressed > 60
-    assert pile.sweeps > 1000
-    return hashlib.sha256(b"".join(array.tobytes() for array in told)).hexdigest()
-
-
-@pytest.mark.slow
-def test_no_number_of_threads_changes_a_bit():
-    """Positions, velocities and impulses of every step on one thread, two and three."""
-    one = states(1)
-    assert states(2) == one
-    assert states(3) == one
 
 
 def test_what_earlier_steps_left_in_the_room_does_not_count():

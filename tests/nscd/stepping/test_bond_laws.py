@@ -7,39 +7,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from naive.stepping import NaiveState, naive_step
-from theory.specimens import system_of
+from theory.marches import OMEGA, followed, march, stiffness
+from theory.specimens import mixed, system_of
 
 from asphalt_nscd.nscd.bonds.head import HeadDevices
 from asphalt_nscd.nscd.bonds.law import BondLaw, BondLaws
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
-from asphalt_nscd.nscd.stepping.integrator import March
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
-from asphalt_nscd.nscd.stepping.scheme import Scheme
 from asphalt_nscd.specimen.system import bending_system
 
-OMEGA = 80 * np.pi
+DT = 2.5e-4  # s
 RIG = HeadDevices(1e-7, 1e4, 5.0, 0.2)
 STONE = BondLaw(60e9, np.inf, np.array([]), np.array([]))
 MAXWELL = BondLaw(30e9, 0.03e9, np.array([]), np.array([]))
 BURGERS = BondLaw(24.3e9, 0.06e9, np.array([48.4e9]), np.array([0.077e9]))
 SOLID = BondLaw(8e9, np.inf, np.array([3e9, 11e9]), np.array([0.004e9, 0.05e9]))
 TABLE = (STONE, MAXWELL, BURGERS, SOLID)
-
-
-def mixed(system, table=TABLE, seed=3) -> BondLaws:
-    """Laws drawn for each bond, another along it than across."""
-    normal, tangential = np.random.default_rng(seed).integers(len(table), size=(2, system.gap.size))
-    return BondLaws.of_bonds(table, normal, tangential)
-
-
-def march(system, law, name="euler", devices=RIG, steps=100) -> March:
-    dt = 2 * np.pi / OMEGA / steps
-    scheme = Scheme.named(name, OMEGA * dt)
-    state = CondensedState.at_rest(system, law)
-    return March(CondensedStepper(system, law, dt / scheme.a, state, devices), scheme, law, dt)
 
 
 def between(springs=(2e-3, 5e-3), mass=1e-9, series=True, **more):
@@ -58,9 +44,9 @@ def test_one_law_in_every_bond_is_the_shared_law(beam_system, quick_law, name, a
     """Through breaks, closing gaps and a rig: the same breaks, and forces and energies to 1e-12."""
     system = replace(beam_system, gap=narrowing * beam_system.gap)
     everywhere = mixed(system, (quick_law, replace(quick_law), replace(quick_law)))
-    runs = [march(system, law, name) for law in (quick_law, everywhere)]
+    runs = [march(system, law, DT, name, devices=RIG) for law in (quick_law, everywhere)]
     sine = np.append(np.zeros(10), amplitude * np.sin(2 * np.pi / 100 * np.arange(1, 61)))
-    shared, own = (np.array([run.move_to(place) for place in sine]) for run in runs)
+    shared, own = (followed(run, sine) for run in runs)
     np.testing.assert_allclose(own, shared, rtol=0, atol=1e-12 * np.abs(shared).max())
     assert (len(runs[0].stepper.state.broken) > 0) == (narrowing == 1.0)
     assert runs[0].stepper.state.broken == runs[1].stepper.state.broken
@@ -79,28 +65,6 @@ def test_one_law_in_every_bond_by_gauss_seidel_and_in_the_frequency_domain(make_
         driving_force(system, law.discrete_modulus(OMEGA, 0.0), OMEGA) for law in (quick_law, everywhere)
     )
     assert other == pytest.approx(one, rel=1e-12)
-
-
-def test_creep_of_two_bonds_in_series():
-    """3 N pull at a body that hangs by two bonds: it sinks by the sum of what each creeps, to O(dt)."""
-    rows = np.zeros((6, 3))
-    rows[0], rows[3] = [0, -1, 1], [0, 1, 0]
-    hung = system_of(rows, np.repeat([2e-3, 5e-3], 3), [1.0, 1e-9, 1e-9], driven=0, load=[0.0, 0.0, 3.0])
-    law = BondLaws.of_bonds((MAXWELL, SOLID), np.array([0, 1]))
-    time = 0.01
-
-    def creep(of: BondLaw) -> float:
-        elements = zip(of.kelvin_springs, of.kelvin_dashpots, strict=True)
-        return 1 / of.spring + time / of.dashpot + sum(-np.expm1(-time * e / n) / e for e, n in elements)
-
-    exact, errors = 3.0 * (creep(MAXWELL) / 2e-3 + creep(SOLID) / 5e-3), []
-    for dt in (2e-4, 1e-4, 5e-5):
-        stepper = CondensedStepper(hung, law, dt, CondensedState.at_rest(hung, law))
-        for _ in range(round(time / dt)):
-            stepper.advance(0.0)
-        errors.append(stepper.state.displacement[2] / exact - 1)
-    assert abs(errors[-1]) < 5e-3
-    np.testing.assert_allclose(np.log2(np.abs(np.array(errors[:-1]) / errors[1:])), 1.0, atol=0.05)
 
 
 @pytest.mark.parametrize("series", [True, False])
@@ -150,23 +114,13 @@ def replace_absent(law: BondLaws, absent: np.ndarray) -> BondLaw:
 @pytest.mark.parametrize("name", ["euler", "fitted"])
 def test_stepping_is_the_frequency_domain(beam_system, name):
     """A specimen whose bonds differ, along and across: forces of the last cycle, to what transients leave."""
-    system, law = replace(beam_system, load=np.zeros_like(beam_system.load)), mixed(beam_system)
-    run = march(system, law, name, HeadDevices())
+    system, law = replace(beam_system, load=np.zeros_like(beam_system.load)), mixed(beam_system, TABLE)
     sine = 1e-7 * np.sin(2 * np.pi / 100 * np.arange(1, 1601))
-    force = np.array([run.move_to(place) for place in sine])[-100:]
-    found = 2j * (force * np.exp(-2j * np.pi / 100 * np.arange(1, 101))).mean() / 1e-7
-    dt = run.dt if name == "euler" else 0.0
+    found = stiffness(followed(march(system, law, DT, name), sine), 100, 1e-7)
+    dt = DT if name == "euler" else 0.0
     rate = (1 - np.exp(-1j * OMEGA * dt)) / dt if dt else 1j * OMEGA
     exact = driving_force(system, law.discrete_modulus(OMEGA, dt), OMEGA, rate**2)
     assert found == pytest.approx(exact, rel=5e-6)
-
-
-def test_frequency_domain_against_dense_equations(beam_system):
-    modulus, omega = mixed(beam_system).discrete_modulus(OMEGA, 0.0), 3e3
-    g = beam_system.operator.toarray()
-    dense = (g.T * (beam_system.weight * modulus)) @ g - omega**2 * np.diag(beam_system.mass)
-    flexibility = np.linalg.inv(dense)[beam_system.driven, beam_system.driven]
-    assert driving_force(beam_system, modulus, omega) == pytest.approx(1 / flexibility, rel=1e-9)
 
 
 def test_the_tangents_have_their_own_law():
@@ -195,23 +149,7 @@ def test_the_stiffer_of_two_bonds_breaks():
     assert stepper.state.broken == [1]
 
 
-@pytest.mark.parametrize("name", ["euler", "fitted"])
-@pytest.mark.parametrize(("amplitude", "narrowing"), [(8e-5, 1.0), (3e-5, 1e-3)])
-def test_energy_account(beam_system, name, amplitude, narrowing):
-    """Closed to 1e-11 of the work while bonds of several laws break, and gaps close."""
-    system = replace(beam_system, gap=narrowing * beam_system.gap)
-    if narrowing < 1.0:
-        system = replace(system, strength=np.full_like(system.strength, np.inf))
-    run = march(system, mixed(system), name)
-    for n in range(100):
-        run.move_to(amplitude * np.sin(OMEGA * run.dt * max(0, n - 9)))
-        sums = run.account.sums
-        assert abs(sums.error) < 1e-11 * max(abs(sums.actuator), 1e-9)
-    assert sums.dashpots > 0.0 and sums.springs > 0.0
-    assert (sums.impact if narrowing < 1.0 else sums.fracture) > 0.0
-
-
 def test_the_reduced_model_refuses(beam_system):
     model = ReducedModel(beam_system, ritz_basis(beam_system, 2))
     with pytest.raises(TypeError, match="one law for all bonds"):
-        ReducedStepper(model, mixed(beam_system), 1e-4, 1e-6)
+        ReducedStepper(model, mixed(beam_system, TABLE), 1e-4, 1e-6)

@@ -1,36 +1,20 @@
-"""Full time stepping: single bonds, a block on an incline, the naive twin, yield and contact."""
+"""Full time stepping: single bonds, a block that lands, the naive twin, yield and contact."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from naive.stepping import NaiveState, naive_step
-from scipy import sparse
+from theory.specimens import system_of
+from theory.test_contacts import G, block_on_ground
+from theory.test_law import BURGERS, LAW
 
 from asphalt_nscd.nscd.bonds.implicit_operator import ShiftedOperator
 from asphalt_nscd.nscd.bonds.law import BondLaw
-from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
+from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.rheology.burgers import Burgers
 
-BURGERS = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)  # 15 degC
-LAW = BondLaw(24.3e9, 3.71e9, np.array([48.4e9]), np.array([0.773e9]))
-G = 9.81
-
-
-def system(rows, weight, mass, load=None, driven=0, gap=1.0, strength=np.inf, friction=0.5) -> BondedSystem:
-    rows = np.asarray(rows, float)
-    bonds = rows.shape[0] // 3
-    return BondedSystem(
-        operator=sparse.csr_matrix(rows),
-        weight=np.full(rows.shape[0], weight),
-        mass=np.asarray(mass, float),
-        load=np.zeros(rows.shape[1]) if load is None else np.asarray(load, float),
-        driven=driven,
-        gap=np.broadcast_to(gap, bonds).astype(float),
-        strength=np.broadcast_to(strength, bonds).astype(float),
-        friction=friction,
-    )
+ELASTIC = BondLaw(1e10, 1e20, np.array([]), np.array([]))
 
 
 def stepper(of: BondedSystem, law=LAW, dt=1e-4, broken=()) -> CondensedStepper:
@@ -44,7 +28,7 @@ def test_relaxation_of_one_bond():
 
     Degree of freedom 1 belongs to a loose body, since at least one must be free.
     """
-    head = system([[1, 0], [0, 0], [0, 0]], weight=2e-3, mass=[0.2, 1.0])
+    head = system_of([[1, 0], [0, 0], [0, 0]], weight=2e-3, mass=[0.2, 1.0])
     errors = []
     for dt in (4e-4, 2e-4, 1e-4):
         step = stepper(head, dt=dt)
@@ -55,22 +39,9 @@ def test_relaxation_of_one_bond():
     np.testing.assert_allclose(np.log2(np.abs(np.array(errors[:-1]) / errors[1:])), 1.0, atol=0.05)
 
 
-def test_creep_of_one_bond():
-    """A body of next to no mass hangs on a bond under 3 N: it sinks by 3 N/g J(t), to O(dt)."""
-    hung = system([[0, 1], [0, 0], [0, 0]], weight=2e-3, mass=[1.0, 1e-9], load=[0.0, 3.0])
-    errors = []
-    for dt in (4e-4, 2e-4, 1e-4):
-        step = stepper(hung, dt=dt)
-        drive = [step.advance(0.0) for _ in range(round(0.04 / dt))]
-        errors.append(step.state.displacement[1] / (3 / 2e-3 * BURGERS.creep_compliance(0.04)) - 1)
-        assert drive == [0.0] * len(drive)  # the drive holds another body
-    assert abs(errors[-1]) < 5e-3
-    np.testing.assert_allclose(np.log2(np.abs(np.array(errors[:-1]) / errors[1:])), 1.0, atol=0.05)
-
-
 def test_drive_accelerates_its_own_mass_against_the_load():
     """No bond acts on the driven body: force = m a - f."""
-    alone = system([[0, 1], [0, 0], [0, 0]], weight=1.0, mass=[0.5, 1.0], load=[-2.0, 0.0])
+    alone = system_of([[0, 1], [0, 0], [0, 0]], weight=1.0, mass=[0.5, 1.0], load=[-2.0, 0.0])
     step = stepper(alone, dt=1e-3)
     assert step.advance(0.3) == pytest.approx(0.5 * 0.3 / 1e-3 + 2.0, rel=1e-14)
     assert step.advance(0.1) == pytest.approx(-0.5 * 0.2 / 1e-3 + 2.0, rel=1e-14)
@@ -120,53 +91,9 @@ def test_factors_after_breakages(beam_system, count):
     )
 
 
-# A block of 0.4 kg, 40 x 30 mm and 8 mm high, on four broken bonds between its corners and a plane.
-
-
-def block(gravity, friction, gap=0.0) -> BondedSystem:
-    corners = np.array([[x, y, -4e-3] for x in (-0.02, 0.02) for y in (-0.015, 0.015)])
-    frame = np.tile(np.array([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]), (4, 1, 1))
-    ground, itself = np.full(4, 2), np.zeros(4, int)
-    operator = opening_operator(ground, itself, frame, corners, np.array([[0.0, 0, 0], [9.0, 0, 0]]))
-    inertia = 0.4 / 12 * np.array([0.03**2 + 0.008**2, 0.04**2 + 0.008**2, 0.04**2 + 0.03**2])
-    mass = np.concatenate([[0.4] * 3, inertia, np.ones(6)])
-    load = np.concatenate([0.4 * np.asarray(gravity), np.zeros(9)])
-    return system(operator.toarray(), 1e-3, mass, load, driven=6, gap=gap, friction=friction)
-
-
-def slide(slope: float, friction: float, steps=40, dt=1e-3) -> CondensedStepper:
-    gravity = G * np.array([np.sin(slope) * 0.6, np.sin(slope) * 0.8, -np.cos(slope)])
-    step = stepper(block(gravity, friction), dt=dt, broken=range(4))
-    for _ in range(steps):
-        step.advance(0.0)
-    return step
-
-
-@pytest.mark.parametrize("friction", [0.2, 0.7])
-def test_a_block_slides_above_the_angle_of_friction(friction):
-    """1e-3 rad below atan(mu) it rests, as far above it slides with g (sin - mu cos) down the slope.
-
-    The contacts are solved to 1e-12 of the free velocity of a step, 1e-2 m/s, in each of 40 steps.
-    """
-    angle = np.arctan(friction)
-    rest = slide(angle - 1e-3, friction)
-    assert np.abs(rest.state.velocity).max() < 1e-12
-    loose = slide(angle + 1e-3, friction)
-    speed = G * (np.sin(angle + 1e-3) - friction * np.cos(angle + 1e-3)) * 0.04
-    assert speed > 3e-4
-    np.testing.assert_allclose(loose.state.velocity[:3], [0.6 * speed, 0.8 * speed, 0], atol=1e-12)
-
-
-def test_a_sliding_block_keeps_its_acceleration():
-    """Well above the angle: constant acceleration, exact for implicit Euler; tolerance of the contacts."""
-    step = slide(0.9, 0.5)
-    speed = G * (np.sin(0.9) - 0.5 * np.cos(0.9)) * 0.04
-    np.testing.assert_allclose(step.state.velocity[:6], [0.6 * speed, 0.8 * speed, 0, 0, 0, 0], atol=1e-10)
-
-
 def test_a_block_lands_and_stays():
     """Dropped by 0.2 mm with a spin about x: corners touch one by one, none below the plane by 1e-12 m."""
-    of = block([0.0, 0.0, -G], friction=0.5, gap=2e-4)
+    of = block_on_ground(np.array([0.0, 0.0, -G]), friction=0.5, gap=2e-4)
     step = stepper(of, dt=1e-4, broken=range(4))
     step.state.velocity[3] = 0.3
     touched = []
@@ -184,8 +111,8 @@ def test_the_drive_feels_the_contact_it_pushes_on():
     head is what both masses and the spring take."""
     rows = np.zeros((6, 2))
     rows[0], rows[3] = [-1, 1], [0, -1]  # body minus head, wall minus body
-    of = system(rows, 1e-3, [0.2, 0.3], gap=[1e-9, 1.0])
-    step = stepper(of, BondLaw(1e10, 1e20, np.array([]), np.array([])), dt=1e-4, broken=[0])
+    of = system_of(rows, 1e-3, [0.2, 0.3], gap=[1e-9, 1.0])
+    step = stepper(of, ELASTIC, dt=1e-4, broken=[0])
     force = step.advance(1e-3)
     moved = 1e-7 - 1e-9
     assert step.state.displacement[1] == pytest.approx(moved, rel=1e-12)
@@ -193,20 +120,19 @@ def test_the_drive_feels_the_contact_it_pushes_on():
     assert force == pytest.approx(expected, rel=1e-9)
 
 
-def bundle(strengths, load=None) -> BondedSystem:
+def bundle(strengths) -> BondedSystem:
     """A driven head, one strong bond to a light body, and from there parallel bonds to the wall."""
     rows = np.zeros((3 * (1 + len(strengths)), 2))
     rows[0] = [1, -1]  # head minus body
     rows[3::3] = [0, 1]  # body minus wall
-    return system(rows, 1e-3, [1.0, 1e-6], load, strength=np.array([np.inf, *strengths]))
+    return system_of(rows, 1e-3, [1.0, 1e-6], strength=np.array([np.inf, *strengths]))
 
 
 def test_yield_cascades_within_one_step():
     """Four bonds share the pull; the weakest goes first and its share overloads the others, one by one,
     until the body hangs loose. Broken bonds carry nothing."""
-    elastic = BondLaw(1e10, 1e20, np.array([]), np.array([]))
     of = bundle([0.39, 0.46, 0.30, 0.44])
-    step = stepper(of, elastic, dt=1e-4)
+    step = stepper(of, ELASTIC, dt=1e-4)
     # springs of 1e7 N/m: one of them in series with four parallel ones
     for opening, expected in ((1.0e-7, 0.8), (1.4e-7, 1.12)):
         velocity = (opening - step.state.displacement[0]) / 1e-4
@@ -222,15 +148,14 @@ def test_yield_cascades_within_one_step():
 
 def test_of_several_overstressed_bonds_the_worst_goes_first():
     """Two exceed yield in the first place, two more once these are gone."""
-    step = stepper(bundle([0.30, 0.31, 0.44, 0.46]), BondLaw(1e10, 1e20, np.array([]), np.array([])), dt=1e-4)
+    step = stepper(bundle([0.30, 0.31, 0.44, 0.46]), ELASTIC, dt=1e-4)
     step.advance(1.6e-7 / 1e-4)
     assert step.state.broken == [1, 2, 3, 4]
 
 
 def test_only_the_overstressed_bond_breaks():
     """The remaining bonds hold what the broken one carried: the force falls to that of three bonds."""
-    elastic = BondLaw(1e10, 1e20, np.array([]), np.array([]))
-    step = stepper(bundle([1.0, 1.0, 0.3, 1.0]), elastic, dt=1e-4)
+    step = stepper(bundle([1.0, 1.0, 0.3, 1.0]), ELASTIC, dt=1e-4)
     inertia = 1.6e-7 / 1e-4**2
     force = step.advance(1.6e-7 / 1e-4) - inertia
     assert step.state.broken == [3]
@@ -240,7 +165,7 @@ def test_only_the_overstressed_bond_breaks():
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_no_yield_in_compression(sign):
     """The same motion breaks the bonds when it pulls and none when it pushes."""
-    step = stepper(bundle([0.3] * 4), BondLaw(1e10, 1e20, np.array([]), np.array([])), dt=1e-4)
+    step = stepper(bundle([0.3] * 4), ELASTIC, dt=1e-4)
     step.advance(sign * 1.6e-7 / 1e-4)
     assert len(step.state.broken) == (4 if sign > 0 else 0)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy import sparse
+from theory.specimens import system_of
 
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
@@ -20,15 +20,9 @@ def held_by_two_bonds(load: float) -> BondedSystem:
     rows[0, :2] = [1.0, -1.0]
     for bond in (1, 2):
         rows[3 * bond, 1] = rows[3 * bond + 1, 2] = 1.0
-    return BondedSystem(
-        sparse.csr_matrix(rows),
-        np.full(9, 1e-3),
-        np.array([1.0, 1e-3, 1e-3]),
-        np.array([0.0, 0.0, load]),
-        0,
-        np.array([1.0, 1e-9, 1e-9]),
-        np.array([np.inf, 0.3, 0.31]),
-        friction=0.5,
+    load = [0.0, 0.0, load]
+    return system_of(
+        rows, 1e-3, [1.0, 1e-3, 1e-3], 0, load, [1.0, 1e-9, 1e-9], [np.inf, 0.3, 0.31], friction=0.5
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from naive.stepping import NaiveState, naive_step
-from scipy import sparse
+from theory.specimens import system_of
 
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
@@ -214,16 +214,7 @@ def springs(first, second, masses, gap, strength, bodies=2) -> BondedSystem:
             rows[3 * b, i] -= 1.0
         if j is not None:
             rows[3 * b, j] += 1.0
-    return BondedSystem(
-        sparse.csr_matrix(rows),
-        np.full(len(rows), 1e-3),
-        np.asarray(masses, float),
-        np.zeros(bodies),
-        0,
-        np.asarray(gap, float),
-        np.asarray(strength, float),
-        0.5,
-    )
+    return system_of(rows, 1e-3, masses, gap=gap, strength=strength, friction=0.5)
 
 
 ELASTIC = BondLaw(1e10, 1e20, np.array([]), np.array([]))
