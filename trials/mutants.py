@@ -139,7 +139,7 @@ def main(words: tuple[str, ...], output: Path | None) -> None:
     if output is not None:
         write_tables(output, chosen, digests, judged)
     alive = sum(not judged[digest] for digest in digests)
-    click.echo(f"{len(chosen) - alive} of {len(chosen)} mutants were noticed.")
+    click.echo(f"{'error: ' if alive else ''}{len(chosen) - alive} of {len(chosen)} mutants were noticed.")
     sys.exit(alive > 0)
 
 

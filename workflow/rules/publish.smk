@@ -140,7 +140,7 @@ rule publish_calls:
 
 
 rule publish_mutants:
-    # After a run of trials/mutants.py --output results/mutants, whose tables these are. Only on request:
+    # After a run of `mutants`, whose tables these are. Only on request:
     #   snakemake --cores 1 publish_mutants
     input:
         summary="results/mutants/summary.csv",

@@ -23,7 +23,8 @@ rule verify:
 
 
 rule mutants:
-    # A wrong sign in the sources must turn a test red; hours. What was tried before stands. Only on request:
+    # A wrong sign in the sources must turn a test red; hours. What was tried before, with the same sources, stands.
+    # Only on request:
     #   snakemake --cores 1 mutants
     log:
         "results/mutants/logs/mutants.log",
