@@ -29,7 +29,9 @@ FITS = ["results/smoke/laws/fitted/T0.json", "results/smoke/laws/fitted/T20.json
 ROOT = Path(__file__).parents[2]
 SNAKEMAKE = "snakemake.cli:main"
 MAKE = dict(
-    re.findall(r"^(\w+): \$\((?:READY|TOOLS)\)\n\t@\.venv/bin/snakemake (.*)", (ROOT / "Makefile").read_text(), re.M)
+    re.findall(
+        r"^(\w+): \$\((?:READY|TOOLS)\)\n\t@\.venv/bin/snakemake (.*)", (ROOT / "Makefile").read_text(), re.M
+    )
 )
 
 
