@@ -19,7 +19,7 @@ rule verify:
     message:
         "Verify the core"
     shell:
-        "{sys.executable} -m pytest {CLONE}/tests/theory -n {threads} --dist loadfile --verification results/verification > {log} 2>&1"
+        "env OPENBLAS_NUM_THREADS=1 {sys.executable} -m pytest {CLONE}/tests/theory -n {threads} --dist loadfile --verification results/verification > {log} 2>&1"
 
 
 rule mutants:
