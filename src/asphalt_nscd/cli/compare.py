@@ -41,7 +41,7 @@ def command(
         write_table(output / "machine.csv", machine.table)
         sheets["Machine"], said = machine.table, str(machine)
         names.append("machine.csv")
-    _data.part("exports", "workbook").write_sheets(output / "comparison.xlsx", sheets)
+    _data.part("exports.formats", "xlsx").write_sheets(output / "comparison.xlsx", sheets)
     _data.part("reporting.pages", "comparison").write_page(output / "comparison.html", table, curves, said)
     for row in table.itertuples():
         place = f"{row.rank_low}" if row.rank_low == row.rank_high else f"{row.rank_low}-{row.rank_high}"

@@ -99,7 +99,7 @@ def command(
             diagnosis = diagnosis.verify_limits(jobs, progress)
     names = diagnosis.outcome.write(output)
     if page:
-        names.append(_data.part("exports", "workbook").corrected_workbook(output).name)
+        names.append(_data.part("exports.formats", "xlsx").corrected_workbook(output).name)
         # An extra: the page draws its plots without it.
         if find_spec("matplotlib"):
             names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)
