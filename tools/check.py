@@ -48,6 +48,7 @@ PUBLISHED = (
     "forecast",
     "fuzz",
     "mapping",
+    "measured",
     "mutants",
     "paper",
     "rigs",

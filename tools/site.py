@@ -25,6 +25,7 @@ PAGES = {
     "data/paper/README.md": "data-of-the-paper.md",
     "data/tutorial/README.md": "data-of-the-tutorial.md",
     "data/ncat/README.md": "data-of-ncat.md",
+    "data/mixes50/README.md": "data-of-mixes50.md",
     "plugins/README.md": "plugins.md",
 }
 MODULES = ROOT / "src/asphalt_nscd"
