@@ -15,20 +15,22 @@ rule verify:
         "results/verification/logs/verification.log",
     benchmark:
         "results/verification/benchmarks/verification.tsv"
-    conda:
-        ENVIRONMENT
     threads: 4
+    params:
+        pytest=f"{sys.executable} -m pytest {CLONE / 'tests/theory'}",
     message:
         "Verify the core"
     shell:
-        "env OPENBLAS_NUM_THREADS=1 {sys.executable} -m pytest {CLONE}/tests/theory -n {threads} --dist loadfile --verification results/verification > {log} 2>&1"
+        "env OPENBLAS_NUM_THREADS=1 {params.pytest} -n {threads} --dist loadfile --verification results/verification > {log} 2>&1"
 
 
 rule mutants:
     """A wrong sign in the sources must turn a test red: hours, only on request; what was tried before stands."""
     log:
         "results/mutants/logs/mutants.log",
+    params:
+        mutants=f"env PYTHONPATH={CLONE / 'trials'} {sys.executable} -m mutants",
     message:
         "Try the mutants"
     shell:
-        "env PYTHONPATH={CLONE}/trials {sys.executable} -m mutants --output results/mutants > {log} 2>&1"
+        "{params.mutants} --output results/mutants > {log} 2>&1"

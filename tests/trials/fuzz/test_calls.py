@@ -61,11 +61,9 @@ def test_only_a_sentence_of_ours_is_one(monkeypatch, ends_in, ended):
 
 
 def test_results_are_looked_at(monkeypatch):
-    class Nowhere(an.Packing):
-        def __init__(self):
-            super().__init__({"position": np.full((1, 3), np.nan), "radius": np.ones(1)}, {})
-
-    monkeypatch.setattr(calls, "draw", lambda seed: Nowhere)
+    nowhere = an.Packing({"position": np.zeros((1, 3)), "radius": np.ones(1), "box": np.ones(3)}, {})
+    nowhere.arrays["position"][:] = np.nan
+    monkeypatch.setattr(calls, "draw", lambda seed: lambda: nowhere)
     assert calls.tried(0).ended == "traceback"
     monkeypatch.setattr(calls, "draw", lambda seed: lambda: None)
     assert calls.tried(0).ended == "result"
