@@ -1,16 +1,8 @@
 from collections.abc import Sequence
 
-from asphalt_nscd.diagnosis.causes._cause import (
-    SPECIMEN,
-    Cause,
-    Complex,
-    Expected,
-    Parameter,
-    Place,
-    Vector,
-    three_digits,
-)
+from asphalt_nscd.diagnosis.causes._cause import SPECIMEN, Cause, Complex, Expected, Parameter, Place, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.files.words import three_digits
 
 
 class SpecimenGeometry(Cause):
