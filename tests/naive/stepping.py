@@ -19,7 +19,7 @@ class NaiveState:
     displacement: np.ndarray
     velocity: np.ndarray
     sigma: np.ndarray
-    kelvin: np.ndarray
+    memory: np.ndarray  # of Kelvin elements
     residual: float = 0.0  # of the full equations of the last step, see naive_step
 
     @classmethod
@@ -49,7 +49,7 @@ def naive_step(
 
     # U+ = b - S sigma+, element by element
     compliance, explicit = 1.0 / (dt * law.spring) + 1.0 / law.dashpot, state.sigma / (dt * law.spring)
-    for modulus, viscosity, old in zip(law.kelvin_springs, law.kelvin_dashpots, state.kelvin):
+    for modulus, viscosity, old in zip(law.kelvin_springs, law.kelvin_dashpots, state.memory):
         compliance += 1.0 / (viscosity + dt * modulus)
         explicit = explicit - modulus * old / (viscosity + dt * modulus)
     # Phi^T [M (v+ - v)/dt - f - G^T w sigma+] = 0 and S sigma+ + G v+ = b
@@ -67,9 +67,9 @@ def naive_step(
     kelvin = np.array(
         [
             (viscosity * old - dt * sigma) / (viscosity + dt * modulus)
-            for modulus, viscosity, old in zip(law.kelvin_springs, law.kelvin_dashpots, state.kelvin)
+            for modulus, viscosity, old in zip(law.kelvin_springs, law.kelvin_dashpots, state.memory)
         ]
-    ).reshape(state.kelvin.shape)
+    ).reshape(state.memory.shape)
     missing = system.mass * (velocity - state.velocity) / dt - system.load - g.T @ (weight * sigma)
     diagonal = ((g**2).T @ system.weight)[system.free]
     residual = float(np.linalg.norm(missing[system.free] / np.sqrt(diagonal)))

@@ -65,10 +65,11 @@ def test_arrays_of_another_kind_are_refused():
     k, one = 3, np.ones(1)
     vector, matrix, small = np.ones(k), np.ones((k, k)), np.ones((k - 1, k - 1))
     arguments = [
-        np.ones(5), (0.0, 0.0, 0.0, 0.0), 1.0, vector, vector, 1.0, matrix, matrix, vector, small, 1.0, 1.0, 1.0,
-        one, one, one, np.ones((7, 7)), 1.0, 1.0, 1.0, np.empty((0, 3, k)), np.empty((0, 2)), np.empty((0, k)),
+        np.ones(5), (0.0, 0.0, 0.0, 0.0), 1.0, vector, vector, 1.0, matrix, matrix, vector, small, 1.0, 1.0,
+        np.ones(2), one, one, one, np.ones((7, 7)), 1.0, 1.0, 1.0, np.empty((0, 3, k)), np.empty((0, 2)),
+        np.empty((0, k)),
         vector, vector, vector, vector, np.zeros(3), vector, vector, vector, np.ones((1, k)), np.ones((3, k)),
-        np.empty(5), np.empty((5, k)), np.empty(4 * k + 1),
+        np.empty(5), np.empty((5, k)), np.empty(5 * k + 8),
     ]  # fmt: skip
     for place, wrong in (
         (6, np.ones((2 * k, k))[::2]),

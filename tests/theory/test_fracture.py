@@ -108,7 +108,7 @@ def sum_apart(run: Run, march: March, before: History, new: list[int]) -> None:
     rows = (3 * np.array(new, int)[:, None] + np.arange(3)).ravel()
     springs: list[tuple[float, str, Any]] = [(1.0 / QUICK_LAW.spring, "sigma", ...)]
     weight = specimen().weight
-    springs += [(modulus, "kelvin", e) for e, modulus in enumerate(QUICK_LAW.kelvin_springs)]
+    springs += [(modulus, "memory", e) for e, modulus in enumerate(QUICK_LAW.kelvin_springs)]
     left = weight.copy()
     left[3 * np.array(run.broken, int)[:, None] + np.arange(3)] = 0.0
     for modulus, variable, part in springs:

@@ -34,7 +34,7 @@ from asphalt_nscd.nscd.bonds.system import clusters, opening_operator
 from asphalt_nscd.nscd.contacts.friction import solve_contacts
 from asphalt_nscd.nscd.spheres.granular import near_pairs
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
-from asphalt_nscd.nscd.stepping.energy import Energies, diagonal_form, form_of_springs, power_of_dashpots
+from asphalt_nscd.nscd.stepping.energy import Energies, diagonal_form
 
 CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
 SETTLED = 1e-14  # m, by which openings may still change: the account of energy then closes to 1e-8 and better
@@ -96,7 +96,7 @@ class World:
         self.rotation = Rotation.from_quat(np.tile([0.0, 0.0, 0.0, 1.0], (radius.size, 1)))
         self.velocity = np.zeros(self.mass.size)
         self.sigma = np.zeros(bonds.weight.size)
-        self.kelvin = np.zeros((len(law.kelvin_springs), bonds.weight.size))
+        self.memory = np.zeros((law.memory, bonds.weight.size))
         self.broken = np.zeros(bonds.first.size, bool)
         self.energies = Energies()
         self.time = 0.0
@@ -134,7 +134,7 @@ class World:
         # places that momentum counts, and a spinning bar would lose 5 % of its spin in a turn of 300 steps
         opening, frame, point = self._openings(self.position, self.rotation)
         operator = opening_operator(self.bonds.first, self.bonds.second, frame, point, self.position)
-        explicit = law.explicit_part(self.sigma, self.kelvin)
+        explicit = law.explicit_part(self.sigma, self.memory)
         contacts = _Contacts.near(self)
         stored = self._stored()
         while True:
@@ -154,7 +154,7 @@ class World:
                 last, beyond = beyond, rate - operator @ velocity
                 if dt * np.abs(beyond - last).max(initial=0.0) <= SETTLED:
                     break
-            sigma, kelvin = law.update(explicit, rate, self.kelvin)
+            sigma, memory = law.update(explicit, rate, self.memory)
             used = utilisations(weight * sigma, self.bonds.strength)
             worst = int(np.argmax(used)) if used.size else -1
             if worst < 0 or used[worst] <= 1.0:
@@ -164,9 +164,9 @@ class World:
         if not np.isfinite(velocity).all():
             raise ArithmeticError("the motion of a step is not finite")
         self._lose(stored)
-        self._count(velocity, sigma, kelvin, rate, operator, contacts)
+        self._count(velocity, sigma, memory, rate, operator, contacts)
         self.position, self.rotation, self.velocity = position, rotation, velocity
-        self.sigma, self.kelvin = sigma, kelvin
+        self.sigma, self.memory = sigma, memory
         self.time += dt
         return contacts.impulse.size // 3
 
@@ -199,12 +199,12 @@ class World:
         return (frame @ (there - here)[:, :, None]).ravel(), frame, 0.5 * (here + there)
 
     def _stored(self) -> float:
-        return self._product(self.sigma, self.kelvin)
+        return self._product(self.sigma, self.memory)
 
-    def _product(self, sigma: np.ndarray, kelvin: np.ndarray) -> float:
-        """Energy [J] of springs under these stresses and elongations."""
-        state = sigma, kelvin
-        return 0.5 * form_of_springs(self.law, diagonal_form(self.weight), state, state)
+    def _product(self, sigma: np.ndarray, memory: np.ndarray) -> float:
+        """Energy [J] of springs under these stresses and memory."""
+        state = sigma, memory
+        return 0.5 * self.law.stored(diagonal_form(self.weight), state, state)
 
     def _lose(self, stored: float) -> None:
         """Account for bonds that broke since this was stored."""
@@ -215,7 +215,7 @@ class World:
         self,
         velocity: np.ndarray,
         sigma: np.ndarray,
-        kelvin: np.ndarray,
+        memory: np.ndarray,
         rate: np.ndarray,
         operator: sparse.csr_matrix,
         contacts: _Contacts,
@@ -225,13 +225,13 @@ class World:
         mean, change = 0.5 * (velocity + self.velocity), 0.5 * (velocity - self.velocity)
         sums.kinetic = 0.5 * float(self.mass @ velocity**2)
         sums.load -= dt * float(self._load @ velocity)
-        sums.springs = self._product(sigma, kelvin)
-        drift = (kelvin - self.kelvin) / dt
-        sums.dashpots += dt * power_of_dashpots(self.law, diagonal_form(weight), sigma, drift)
+        sums.springs = self._product(sigma, memory)
+        drift = (memory - self.memory) / dt
+        sums.dashpots += dt * self.law.dissipated(diagonal_form(weight), sigma, memory, drift)
         work = (contacts.impulse * (contacts.rows_met @ mean)).reshape(-1, 3)
         sums.impact -= float(work[:, 0].sum())
         sums.friction -= float(work[:, 1:].sum())
-        sums.numerical += self._product(sigma - self.sigma, kelvin - self.kelvin)
+        sums.numerical += self._product(sigma - self.sigma, memory - self.memory)
         sums.numerical += dt * float(self._load @ change + (weight * sigma) @ (rate - operator @ mean))
 
 

@@ -100,7 +100,7 @@ def test_naive_twin(beam_system, broken):
         force = stepper.advance(driven)
         twin, expected = naive_step(beam_system, naive, dt, twin, driven, broken)
         assert force == pytest.approx(expected, rel=1e-9)
-        for name in ("sigma", "velocity", "displacement", "kelvin"):
+        for name in ("sigma", "velocity", "displacement", "memory"):
             one, other = getattr(stepper.state, name), getattr(twin, name)
             np.testing.assert_allclose(one, other, rtol=0, atol=1e-9 * np.abs(other).max())
     assert absent.any() and not absent.all()

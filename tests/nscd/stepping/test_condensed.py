@@ -62,7 +62,7 @@ def test_naive_twin(beam_system, quick_law, broken):
         fastest = np.abs(state.velocity).max()
         np.testing.assert_allclose(step.state.velocity, state.velocity, rtol=0, atol=1e-9 * fastest)
         np.testing.assert_allclose(
-            step.state.kelvin, state.kelvin, rtol=0, atol=1e-9 * np.abs(state.kelvin).max()
+            step.state.memory, state.memory, rtol=0, atol=1e-9 * np.abs(state.memory).max()
         )
         furthest = np.abs(state.displacement).max()
         np.testing.assert_allclose(step.state.displacement, state.displacement, rtol=0, atol=1e-9 * furthest)

@@ -78,9 +78,9 @@ def test_naive_twin(beam_system, law):
         rtol=0,
         atol=1e-9 * np.abs(state.displacement).max(),
     )
-    assert stepper.full_state().kelvin.shape == state.kelvin.shape
+    assert stepper.full_state().memory.shape == state.memory.shape
     np.testing.assert_allclose(
-        stepper.full_state().kelvin, state.kelvin, rtol=0, atol=1e-9 * np.abs(state.kelvin).max(initial=0.0)
+        stepper.full_state().memory, state.memory, rtol=0, atol=1e-9 * np.abs(state.memory).max(initial=0.0)
     )
 
 
@@ -90,7 +90,7 @@ def test_full_and_reduced_agree_step_by_step(beam_system, quick_law):
     stepper, complete = reduced(beam_system, quick_law), full(beam_system, quick_law)
     assert deviation(stepper.run(driven)[0], march(complete, driven)) < 1e-12
     state, expected = stepper.full_state(), complete.state
-    for name in ("displacement", "velocity", "sigma", "kelvin"):
+    for name in ("displacement", "velocity", "sigma", "memory"):
         wanted = getattr(expected, name)
         np.testing.assert_allclose(getattr(state, name), wanted, rtol=0, atol=1e-9 * np.abs(wanted).max())
     assert stepper.certificate().enrichments == 0

@@ -64,7 +64,7 @@ def test_fitted_steps_against_the_scheme_written_out(beam_system, quick_law):
         y = {name: (last.values[name], before.values[name], now.values[name]) for name in now.values}
         rate = {k: (scheme.a * (c - b) - scheme.b * (b - a)) / dt for k, (a, b, c) in y.items()}
         sigma, velocity = now.values["sigma"], now.values["velocity"]
-        opening = -rate["sigma"] / law.spring - sigma / law.dashpot + rate["kelvin"].sum(axis=0)
+        opening = -rate["sigma"] / law.spring - sigma / law.dashpot + rate["memory"].sum(axis=0)
         scale = np.abs(beam_system.operator @ velocity).max()
         np.testing.assert_allclose(beam_system.operator @ velocity, opening, rtol=0, atol=1e-9 * scale)
         np.testing.assert_allclose(

@@ -40,11 +40,11 @@ def test_naive_twin(small, most_sweeps, tolerance, rounding=1e-11):
     sweeps = 0
     for driven in (1e-3, 2e-3, -1e-3):
         before = stepper.state
-        explicit = law.explicit_part(before.sigma, before.kelvin)
+        explicit = law.explicit_part(before.sigma, before.memory)
         reaction = small.weight * before.sigma
         velocity = before.velocity + DT * (small.load + small.operator.T @ reaction) / small.mass
         velocity[small.driven] = driven
-        old_velocity, old_kelvin = before.velocity.copy(), before.kelvin.copy()
+        old_velocity, old_kelvin = before.velocity.copy(), before.memory.copy()
         reaction, velocity, done = naive_bond_sweeps(
             small.operator, small.weight, small.mass, small.driven, law.compliance, explicit, reaction, velocity,
             DT, tolerance, most_sweeps, stepper.visits,
@@ -63,7 +63,7 @@ def test_naive_twin(small, most_sweeps, tolerance, rounding=1e-11):
             abs=100.0 * rounding * size,
         )
         kelvin = law.kelvin_decay[:, None] * old_kelvin - law.kelvin_gain[:, None] * reaction / small.weight
-        np.testing.assert_allclose(stepper.state.kelvin, kelvin, rtol=0, atol=rounding * np.abs(kelvin).max())
+        np.testing.assert_allclose(stepper.state.memory, kelvin, rtol=0, atol=rounding * np.abs(kelvin).max())
     assert stepper.sweeps == sweeps
 
 
@@ -81,7 +81,7 @@ def test_run_to_convergence_it_solves_the_condensed_equations(small):
     np.testing.assert_allclose(
         march(converged, driven), reference, rtol=0, atol=1e-9 * np.abs(reference).max()
     )
-    for name in ("velocity", "displacement", "sigma", "kelvin"):
+    for name in ("velocity", "displacement", "sigma", "memory"):
         wanted = getattr(direct.state, name)
         np.testing.assert_allclose(
             getattr(converged.state, name), wanted, rtol=0, atol=1e-8 * np.abs(wanted).max()

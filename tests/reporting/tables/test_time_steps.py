@@ -21,7 +21,7 @@ def test_longest_step_is_where_the_stepped_law_is_wrong_by_one_percent():
     for now, before in zip(np.sin(angles), np.sin(angles - omega * dt), strict=True):
         explicit = law.explicit_part(sigma, kelvin)
         sigma = (explicit - (now - before) / dt) / law.compliance
-        kelvin = law.stretched(kelvin, sigma)
+        kelvin = law.remembered(sigma, np.zeros(1), kelvin)
         found.append(-sigma[0])
     basis = np.column_stack([np.sin(angles), np.cos(angles)])[turns // 2 :]
     real, imaginary = np.linalg.lstsq(basis, np.array(found)[turns // 2 :], rcond=None)[0]

@@ -29,22 +29,21 @@ CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
 class CondensedState:
     """Motion and bond history at one instant; all zero at rest.
 
-    `displacement` (d,) in m or rad, `velocity` (d,) in m/s or rad/s, `sigma` (3 b,) in Pa, `kelvin` (k, 3 b) in m;
-    `broken` lists bonds in the order in which they broke.
+    `displacement` (d,) in m or rad, `velocity` (d,) in m/s or rad/s, `sigma` (3 b,) in Pa, `memory` (m, 3 b) is that of
+    the law; `broken` lists bonds in the order in which they broke.
     """
 
     displacement: np.ndarray
     velocity: np.ndarray
     sigma: np.ndarray
-    kelvin: np.ndarray
+    memory: np.ndarray
     broken: list[int] = field(default_factory=list)
 
     @classmethod
     def rest_state(cls, system: BondedSystem, law: AnyLaw) -> CondensedState:
-        """State of no motion and no stress, with the Kelvin elements of the law."""
+        """State of no motion and no stress, with the memory of the law."""
         d, rows = system.mass.size, system.weight.size
-        kelvin = np.zeros((len(law.kelvin_springs), rows))
-        return cls(np.zeros(d), np.zeros(d), np.zeros(rows), kelvin)
+        return cls(np.zeros(d), np.zeros(d), np.zeros(rows), np.zeros((law.memory, rows)))
 
 
 class CondensedStepper:
@@ -95,13 +94,13 @@ class CondensedStepper:
         is left.
         """
         system, state, dt, law = self.system, self.state, self.dt, self.step_law
-        explicit = law.explicit_part(state.sigma, state.kelvin)
+        explicit = law.explicit_part(state.sigma, state.memory)
         while True:
             velocity, contact_force, friction = self._solve(explicit, driven_velocity)
             # NaN is not <= 1 either: the step would break bond after bond
             if not np.isfinite(velocity).all():
                 raise ArithmeticError("the motion of a step is not finite")
-            sigma, kelvin = law.update(explicit, system.operator @ velocity, state.kelvin)
+            sigma, memory = law.update(explicit, system.operator @ velocity, state.memory)
             utilisation = system.utilisation(self._operator.weight * sigma)
             worst = int(np.argmax(utilisation))
             if utilisation[worst] <= 1.0:
@@ -125,7 +124,7 @@ class CondensedStepper:
         )
         self.actuator += dt * driven_velocity
         state.displacement = state.displacement + dt * velocity
-        state.velocity, state.sigma, state.kelvin = velocity, sigma, kelvin
+        state.velocity, state.sigma, state.memory = velocity, sigma, memory
         return float(force)
 
     def _solve(self, explicit: np.ndarray, driven_velocity: float) -> tuple[np.ndarray, np.ndarray, float]:

@@ -18,18 +18,13 @@ releases what it stores at the beginning of the step. Devices at the head add st
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from asphalt_nscd.nscd.bonds.law import AnyLaw
+from asphalt_nscd.nscd.bonds.law import AnyLaw, Form
 from asphalt_nscd.nscd.stepping.scheme import History
-
-Form = Callable[[np.ndarray, np.ndarray], float]
-Stresses = tuple[np.ndarray, np.ndarray]
-"""Of bonds: sigma [Pa] and the displacements (k, ...) of Kelvin elements [m]."""
 
 
 @dataclass
@@ -93,8 +88,8 @@ class EnergyAccount:
             sums.numerical += scale * taken[name] - (new[name] - old[name])
             setattr(sums, name, new[name])
         sums.actuator += scale * force * (after.actuator - base.actuator)
-        rate = (after.values["kelvin"] - base.values["kelvin"]) / stepper.dt
-        sums.dashpots += dt * power_of_dashpots(self.law, of.strain, after.values["sigma"], rate)
+        at_end, rate = after.values, (after.values["memory"] - base.values["memory"]) / stepper.dt
+        sums.dashpots += dt * self.law.dissipated(of.strain, at_end["sigma"], at_end["memory"], rate)
         sums.friction += dt * stepper.devices.guide_friction * abs(after.values["velocity"][of.head])
         contact = getattr(stepper, "contact", None)
         if contact is not None:
@@ -109,7 +104,7 @@ class EnergyAccount:
         """factor times the bilinear form of each store at x and y; the linear one of the load at y."""
         clamp, spring, _, mass = stepper.devices.head_constants
         one, other = x.values, y.values
-        stresses = [(values["sigma"], values["kelvin"]) for values in (one, other)]
+        stresses = [(values["sigma"], values["memory"]) for values in (one, other)]
         places = [(h.values["displacement"][of.head], h.values["velocity"][of.head]) for h in (x, y)]
         (at, speed), (at_other, speed_other) = places
         devices = spring * at * at_other + mass * speed * speed_other
@@ -117,26 +112,10 @@ class EnergyAccount:
             devices += (x.actuator - at) * (y.actuator - at_other) / clamp
         return {
             "kinetic": factor * of.inertia(one["velocity"], other["velocity"]),
-            "springs": factor * form_of_springs(self.law, of.strain, *stresses),
+            "springs": factor * self.law.stored(of.strain, *stresses),
             "load": -float(of.load @ other["displacement"]),
             "devices": factor * devices,
         }
-
-
-def form_of_springs(law: AnyLaw, strain: Form, one: Stresses, other: Stresses) -> float:
-    """Bilinear form [J] of all springs of a law; half of it at twice the same stresses is what they store."""
-    springs = strain(one[0] / law.spring, other[0])
-    for modulus, a, b in zip(np.atleast_1d(law.kelvin_springs), one[1], other[1], strict=True):
-        springs += strain(modulus * a, b)
-    return springs
-
-
-def power_of_dashpots(law: AnyLaw, strain: Form, sigma: np.ndarray, rate: np.ndarray) -> float:
-    """What all dashpots of a law take [W] at stresses `sigma` [Pa] and rates (k, ...) of its Kelvin elements [m/s]."""
-    power = strain(sigma / law.dashpot, sigma)
-    for viscosity, of_element in zip(np.atleast_1d(law.kelvin_dashpots), rate, strict=True):
-        power += strain(viscosity * of_element, of_element)
-    return power
 
 
 class Forms(NamedTuple):

@@ -48,7 +48,7 @@ class SweepingStepper:
     def advance(self, driven_velocity: float) -> float:
         """Driving force [N] in one step at this velocity of the driven degree of freedom [m/s]."""
         system, state, dt = self.system, self.state, self.dt
-        explicit = self.law.explicit_part(state.sigma, state.kelvin)
+        explicit = self.law.explicit_part(state.sigma, state.memory)
         reaction = system.weight * state.sigma
         velocity = state.velocity + dt * self._inverse_mass * system.load
         velocity[system.driven] = driven_velocity
@@ -61,7 +61,10 @@ class SweepingStepper:
         # by the head's own equation of motion: it holds, whatever the sweeps have left open elsewhere
         drive = inertia - system.load[system.driven] - (self._column.T @ reaction)[0]
         sigma = reaction / system.weight
-        state.kelvin = self.law.stretched(state.kelvin, sigma)
+        opening = (
+            explicit - self.law.compliance * sigma
+        )  # by the law, which the sweeps leave open at the bodies
+        state.memory = self.law.remembered(sigma, opening, state.memory)
         state.displacement = state.displacement + dt * velocity
         state.velocity, state.sigma = velocity, sigma
         return float(drive)

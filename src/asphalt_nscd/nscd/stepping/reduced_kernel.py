@@ -25,31 +25,32 @@ def take_steps(run):
 
     State arrays change in place, step by step; `run.trial` receives v+, s+, q+ of the refused step.
     """
-    q, v, s, kelvin, dt, force, maxima = run.q, run.v, run.s, run.kelvin, run.dt, run.force, run.maxima
+    q, v, s, memory, dt, force, maxima = run.q, run.v, run.s, run.memory, run.dt, run.force, run.maxima
     k = q.shape[0]
     kept = run.velocity.shape[1]
     scale = dt / run.compliance
     explicit, known, combined = run.scratch[:k], run.scratch[k : 2 * k], run.scratch[2 * k : 4 * k + 1]
+    others, missed = run.scratch[4 * k + 1 : 5 * k], run.scratch[5 * k + 1 :]
     new_v, new_s, new_q = run.trial[0], run.trial[1], run.trial[2]
     for n in range(run.driven.shape[0]):
         for a in range(k):
-            explicit[a] = run.spring_memory * s[a]
-            for e in range(run.kelvin_recall.shape[0]):
-                explicit[a] -= run.kelvin_recall[e] * kelvin[e, a]
+            explicit[a] = run.recall[0] * s[a]
+            for e in range(memory.shape[0]):
+                explicit[a] += run.recall[1 + e] * memory[e, a]
         free_force = -run.head_load
         for a in range(k):
             free_force -= run.head_inertia[a] * v[a] + run.head_strain[a] * explicit[a]
         new_v[0], friction = follow_actuator(
             run.devices, dt, free_force, run.impedance, run.driven[n], q[0], v[0]
         )
-        for a in range(1, k):
-            known[a] = dt * run.load[a] - (run.mass[a, 0] + scale * run.stiffness[a, 0]) * new_v[0]
-            for b in range(k):
-                known[a] += run.mass[a, b] * v[b] + scale * run.stiffness[a, b] * explicit[b]
-        for a in range(1, k):
-            new_v[a] = 0.0
-            for b in range(1, k):
-                new_v[a] += run.inverse[a - 1, b - 1] * known[b]
+        for a in range(k):
+            known[a] = dt * run.load[a] - (run.mass[0, a] + scale * run.stiffness[0, a]) * new_v[0]
+        for b in range(k):
+            _add_two(known, run.mass[b], v[b], scale, run.stiffness[b], explicit[b])
+        others[:] = 0.0
+        for b in range(k - 1):
+            _add(others, run.inverse[b], known[b + 1])
+        new_v[1:] = others
         outside = False
         for a in range(k):
             new_s[a] = (explicit[a] - new_v[a]) / run.compliance
@@ -64,7 +65,7 @@ def take_steps(run):
         # an inaccurate trial must not decide on gaps and yield, nor one without its contacts on yield
         stress = max(maxima[0], abs(new_s[0]))
         size = run.head_norm * stress + run.load_norm
-        missing = _norm_of_product(run.residual_factor, combined)
+        missing = _norm_of_product(run.residual_factor, combined, missed)
         # written so that NaN is refused
         if not missing <= run.tolerance * size:
             return n, RESIDUAL, -1
@@ -90,12 +91,13 @@ def take_steps(run):
             maxima[1] = max(maxima[1], missing / size)
         force[n] = -run.load[0]
         for b in range(k):
-            force[n] += run.mass[0, b] * combined[b] - run.stiffness[0, b] * new_s[b]
+            force[n] += run.mass[b, 0] * combined[b] - run.stiffness[b, 0] * new_s[b]
         force[n] = actuator_force(run.devices, dt, force[n], friction, q[0], v[0], new_v[0])
         for a in range(k):
             v[a], s[a], q[a] = new_v[a], new_s[a], new_q[a]
-            for e in range(run.kelvin_recall.shape[0]):
-                kelvin[e, a] = run.kelvin_decay[e] * kelvin[e, a] - run.kelvin_gain[e] * new_s[a]
+            for e in range(memory.shape[0]):
+                driven = run.gain[e] * new_s[a] + run.follow[e] * new_v[a]
+                memory[e, a] = run.decay[e] * memory[e, a] - driven
             run.reached_sigma[a] = max(run.reached_sigma[a], abs(s[a]))
             run.reached_motion[a] = max(run.reached_motion[a], abs(q[a]))
             if a < kept:
@@ -113,14 +115,28 @@ def _utilisation(reaction, s):
     return utilisation(normal, tangent, other)
 
 
+# sums over rows, column by column: each sum keeps its order and bits, and many go on at once
 @compiled
-def _norm_of_product(upper, vector):
+def _add(total, column, share):
+    for a in range(total.shape[0]):
+        total[a] += column[a] * share
+
+
+@compiled
+def _add_two(total, column, share, scale, other, share_of_other):
+    for a in range(total.shape[0]):
+        total[a] += column[a] * share + scale * other[a] * share_of_other
+
+
+@compiled
+def _norm_of_product(columns, vector, rows):
+    rows[:] = 0.0
+    for b in range(vector.shape[0]):
+        upper = min(b + 1, rows.shape[0])
+        _add(rows[:upper], columns[b], vector[b])
     square = 0.0
-    for a in range(upper.shape[0]):
-        row = 0.0
-        for b in range(a, upper.shape[1]):
-            row += upper[a, b] * vector[b]
-        square += row * row
+    for a in range(rows.shape[0]):
+        square += rows[a] * rows[a]
     return np.sqrt(square)
 
 
@@ -131,8 +147,8 @@ _INTEGERS, _DOUBLES = types.CPointer(types.intp), types.CPointer(types.float64)
 def native_steps(sizes, fields, taken):
     """`take_steps` on the fields of a `ReducedRun` behind pointers to contiguous doubles, in its order."""
     size = carray(sizes, 8)
-    n, k, e, rows = size[0], size[1], size[2], size[3]
-    columns, watched, closed, kept = size[4], size[5], size[6], size[7]
+    n, k, m, columns = size[0], size[1], size[2], size[3]
+    rows, watched, closed, kept = size[4], size[5], size[6], size[7]
     at = carray(fields, FIELDS)
     device = carray(at[1], 4)
     steps = take_steps(
@@ -149,11 +165,11 @@ def native_steps(sizes, fields, taken):
             carray(at[9], (k - 1, k - 1)),
             carray(at[10], 1)[0],
             carray(at[11], 1)[0],
-            carray(at[12], 1)[0],
-            carray(at[13], e),
-            carray(at[14], e),
-            carray(at[15], e),
-            carray(at[16], (rows, columns)),
+            carray(at[12], 1 + m),
+            carray(at[13], m),
+            carray(at[14], m),
+            carray(at[15], m),
+            carray(at[16], (columns, rows)),
             carray(at[17], 1)[0],
             carray(at[18], 1)[0],
             carray(at[19], 1)[0],
@@ -168,11 +184,11 @@ def native_steps(sizes, fields, taken):
             carray(at[28], k),
             carray(at[29], k),
             carray(at[30], k),
-            carray(at[31], (e, k)),
+            carray(at[31], (m, k)),
             carray(at[32], (3, k)),
             carray(at[33], n),
             carray(at[34], (n, kept)),
-            carray(at[35], 4 * k + 1),
+            carray(at[35], 5 * k + rows + 1),
         )
     )
     for place in range(3):

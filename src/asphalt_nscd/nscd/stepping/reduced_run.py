@@ -11,7 +11,10 @@ DONE, OUTSIDE_ENVELOPE, YIELD, CLOSED_GAP, RESIDUAL = range(5)
 
 
 class ReducedRun(NamedTuple):
-    """Model, state and results of some steps: n steps, k coordinates, e Kelvin elements, c bonds."""
+    """Model, state and results of some steps: n steps, k coordinates, m variables of the law, c bonds.
+
+    Of matrices the columns, as rows (`columns`), so that a product adds whole columns to a sum.
+    """
 
     driven: np.ndarray  # (n,) m, of the actuator
     devices: tuple[float, float, float, float]  # `HeadDevices.head_constants`
@@ -19,17 +22,17 @@ class ReducedRun(NamedTuple):
     head_inertia: np.ndarray  # a (k,)
     head_strain: np.ndarray  # b (k,)
     head_load: float  # c, N
-    mass: np.ndarray  # (k, k)
-    stiffness: np.ndarray  # (k, k)
+    mass: np.ndarray  # (k, k) columns
+    stiffness: np.ndarray  # (k, k) columns
     load: np.ndarray  # (k,)
-    inverse: np.ndarray  # (k - 1, k - 1) of the step matrix without the head
+    inverse: np.ndarray  # (k - 1, k - 1) columns of the step matrix without the head
     dt: float  # s
     compliance: float  # of the law, as those that follow
-    spring_memory: float
-    kelvin_recall: np.ndarray  # (e,)
-    kelvin_decay: np.ndarray  # (e,)
-    kelvin_gain: np.ndarray  # (e,)
-    residual_factor: np.ndarray  # upper triangle, with 2 k + 1 columns
+    recall: np.ndarray  # (1 + m,)
+    decay: np.ndarray  # (m,)
+    gain: np.ndarray  # (m,)
+    follow: np.ndarray  # (m,)
+    residual_factor: np.ndarray  # 2 k + 1 columns of an upper triangle
     head_norm: float
     load_norm: float
     tolerance: float  # of the residual, relative
@@ -44,11 +47,11 @@ class ReducedRun(NamedTuple):
     q: np.ndarray  # (k,)
     v: np.ndarray  # (k,)
     s: np.ndarray  # (k,)
-    kelvin: np.ndarray  # (e, k)
+    memory: np.ndarray  # (m, k)
     trial: np.ndarray  # (3, k)
     force: np.ndarray  # (n,) N
     velocity: np.ndarray  # (n, at most k)
-    scratch: np.ndarray  # (4 k + 1,)
+    scratch: np.ndarray  # (5 k + r + 1,), r rows of the residual factor
 
 
 FIELDS = len(ReducedRun._fields)

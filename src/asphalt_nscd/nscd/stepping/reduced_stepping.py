@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from asphalt_nscd.nscd.bonds.head import RIGID, HeadDevices
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.stepping.bond_bounds import BeyondExcerpt
 from asphalt_nscd.nscd.stepping.excerpt import Excerpt
 from asphalt_nscd.nscd.stepping.reduced_run import CLOSED_GAP, DONE, OUTSIDE_ENVELOPE, YIELD, ReducedRun
@@ -48,7 +48,7 @@ class ReducedState:
     displacement: np.ndarray  # q (k,)
     velocity: np.ndarray  # (k,)
     sigma: np.ndarray  # s (k,)
-    kelvin: np.ndarray  # kappa (e, k)
+    memory: np.ndarray  # (m, k), of the law
     broken: list[int] = field(default_factory=list)
 
 
@@ -84,7 +84,7 @@ class ReducedStepper:
     def __init__(
         self,
         model: ReducedModel | Excerpt,
-        law: BondLaw,
+        law: AnyLaw,
         dt: float,
         tolerance: float,
         most_enrichments: int = MOST_ENRICHMENTS,
@@ -92,15 +92,15 @@ class ReducedStepper:
         stand_by: StandBy | None = None,
     ) -> None:
         """stand_by: directions for breaks, on the basis of `model`; an excerpt brings its own."""
-        if not isinstance(law, BondLaw):
+        self.law = law.step(dt)
+        if np.ndim(self.law.compliance):
             raise TypeError(
                 "the reduced model has one law for all bonds; step bonds of several by CondensedStepper."
             )
         k = model.size
-        elements = np.size(law.kelvin_springs)
         self._part, self.dt, self.tolerance, self.devices = model, dt, tolerance, devices
-        self.law = law.step(dt)
-        self.state = ReducedState(np.zeros(k), np.zeros(k), np.zeros(k), np.zeros((elements, k)))
+        self._coefficients = self.law.coefficients(law.memory)
+        self.state = ReducedState(np.zeros(k), np.zeros(k), np.zeros(k), np.zeros((law.memory, k)))
         self.enrichments, self.most_enrichments = 0, most_enrichments
         # running maxima: |s_0|, residual, utilisation of watched bonds
         self._maxima = np.zeros(3)
@@ -165,7 +165,7 @@ class ReducedStepper:
             displacement=basis @ state.displacement,
             velocity=basis @ state.velocity,
             sigma=opening @ state.sigma,
-            kelvin=state.kelvin @ opening.T,
+            memory=state.memory @ opening.T,
             broken=list(state.broken),
         )
 
@@ -206,17 +206,14 @@ class ReducedStepper:
             driven,
             self.devices.head_constants,
             *self._seen_from_head(inverse),
-            model.mass,
-            model.stiffness,
+            _columns(model.mass),
+            _columns(model.stiffness),
             model.load,
-            inverse,
+            _columns(inverse),
             law.dt,
             float(law.compliance),
-            float(law.spring_memory),
-            law.kelvin_recall,
-            law.kelvin_decay,
-            law.kelvin_gain,
-            model.residual_factor,
+            *self._coefficients,
+            _columns(model.residual_factor),
             model.head_norm,
             model.load_norm,
             self.tolerance,
@@ -231,11 +228,11 @@ class ReducedStepper:
             state.displacement,
             state.velocity,
             state.sigma,
-            state.kelvin,
+            state.memory,
             self._trial,
             force,
             velocity,
-            np.empty(4 * len(inverse) + 5),
+            np.empty(5 * model.size + len(model.residual_factor) + 1),
         )
         taken, code, watched = advance_reduced(run)
         return taken, code, int(self._may_yield[watched]) if code == YIELD else -1
@@ -310,7 +307,7 @@ class ReducedStepper:
             basis = append_columns(whole.system, whole.basis, self._corrections())
             model = whole.project_anew(basis, self.state.broken)
         more, self._part = model.size - self.state.sigma.size, model
-        for name in ("displacement", "velocity", "sigma", "kelvin"):
+        for name in ("displacement", "velocity", "sigma", "memory"):
             setattr(self.state, name, _widened(getattr(self.state, name), more))
         self._reached_sigma = _widened(self._reached_sigma, more)
         self._reached_motion = _widened(self._reached_motion, more)
@@ -346,6 +343,11 @@ class ReducedStepper:
             extra[system.free, column] = self._operator.solve(force)
             force = system.mass[system.free] * extra[system.free, column]
         return extra
+
+
+def _columns(matrix: np.ndarray) -> np.ndarray:
+    """Its columns as rows: products are summed column by column, which keeps the order of each sum."""
+    return np.ascontiguousarray(matrix.T)
 
 
 def _widened(coordinates: np.ndarray, more: int) -> np.ndarray:

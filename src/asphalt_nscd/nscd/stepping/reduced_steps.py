@@ -18,7 +18,7 @@ def advance_reduced(run: ReducedRun) -> tuple[int, int, int]:
 
     Its arrays must be contiguous doubles, else TypeError; those from `reached_sigma` on change in place.
     """
-    sizes = [run.driven.size, run.q.size, run.kelvin_recall.size, *run.residual_factor.shape]
+    sizes = [run.driven.size, run.q.size, run.decay.size, *run.residual_factor.shape]
     sizes += [len(run.reaction), len(run.closing), run.velocity.shape[1]]
     counts, taken = np.array(sizes, np.intp), np.empty(3, np.intp)
     # held by name until the call is over: the kernel has nothing but addresses

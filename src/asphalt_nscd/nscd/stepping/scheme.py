@@ -22,7 +22,7 @@ from typing import Any
 
 import numpy as np
 
-VARIABLES = ("displacement", "velocity", "sigma", "kelvin")
+VARIABLES = ("displacement", "velocity", "sigma", "memory")
 
 
 @dataclass(frozen=True)
