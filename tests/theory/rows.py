@@ -9,7 +9,7 @@ import pandas as pd
 from numpy.typing import ArrayLike
 
 # In the order of the published table.
-THEMES = "spheres edges contacts coupled law beams facets films methods accounts fracture determinism".split()
+THEMES = "spheres edges contacts coupled law beams facets films skeleton methods accounts fracture determinism".split()
 COLUMNS = ["name", "expected", "found", "error", "tolerance", "verdict", "source"]
 PASSED, FAILED = "passed", "failed"
 

@@ -36,6 +36,22 @@ class Programme:
     drift: bool = False
     samples: int = 50  # in a cycle
 
+    def angles(self) -> Vector:
+        """omega t (s,) [rad] of the samples, from the start."""
+        return 2.0 * np.pi * np.arange(self.cycles * self.samples + 1) / self.samples
+
+    def stress(self, angle: Vector) -> Vector:
+        """(s,) at omega t [rad], of amplitude one."""
+        return 1.0 - np.cos(angle) if self.haversine else np.sin(angle)
+
+    def phasor(self, signal: Vector, angle: Vector) -> complex:
+        """Complex amplitude of a signal (s,) by least squares over the cycles that are read; `angle` omega t [rad]."""
+        last = slice(-self.read * self.samples, None)
+        angle = angle[last]
+        terms = [np.cos(angle), np.sin(angle), np.ones_like(angle), *[angle] * self.drift]
+        cosine, sine, *_ = np.linalg.lstsq(np.column_stack(terms), signal[last], rcond=None)[0]
+        return complex(cosine, -sine)
+
 
 def modulus_as_read(
     chain: KelvinChain, frequencies: Sequence[float], programme: Programme
@@ -53,23 +69,14 @@ def modulus_as_read(
     read = []
     for frequency in frequencies:
         omega = 2.0 * np.pi * frequency
-        time = np.arange(programme.cycles * programme.samples + 1) / (programme.samples * frequency)
+        angle = programme.angles()
+        time, stress = angle / omega, programme.stress(angle)
         mean, turning = (1.0, -1.0 + 0j) if programme.haversine else (0.0, -1j)
-        stress = mean + (turning * np.exp(1j * omega * time)).real
         history = _elements(springs, dashpots, strain, mean, turning, omega, time)
         total = stress / chain.spring + history.sum(axis=1)
         strain = history[-1]
-        read.append(_phasor(stress, omega * time, programme) / _phasor(total, omega * time, programme))
+        read.append(programme.phasor(stress, angle) / programme.phasor(total, angle))
     return np.array(read)
-
-
-def _phasor(signal: Vector, angle: Vector, programme: Programme) -> complex:
-    """Complex amplitude of a signal (n,) by least squares over the cycles that are read; `angle` = omega t [rad]."""
-    last = slice(-programme.read * programme.samples, None)
-    angle = angle[last]
-    terms = [np.cos(angle), np.sin(angle), np.ones_like(angle), *[angle] * programme.drift]
-    cosine, sine, *_ = np.linalg.lstsq(np.column_stack(terms), signal[last], rcond=None)[0]
-    return complex(cosine, -sine)
 
 
 def _elements(

@@ -1,0 +1,109 @@
+"""A force commanded from rest on a specimen whose grains touch, cycle after cycle, and read as a machine reads it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy import sparse
+
+from asphalt_nscd.nscd.bonds.law import AnyLaw
+from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.stepping.compliant import CompliantStepper
+from asphalt_nscd.nscd.stepping.condensed import CondensedState
+from asphalt_nscd.nscd.stepping.energy import diagonal_form, form_of_springs, power_of_dashpots
+from asphalt_nscd.nscd.stepping.harmonic import driving_force
+from asphalt_nscd.nscd.stepping.scheme import History, Scheme
+from asphalt_nscd.nscd.stepping.skeleton import Skeleton
+from asphalt_nscd.rheology.as_run import Programme
+
+TOLERANCE = 1e-6  # of the motion of the head: how far an opening may lie from that in balance
+
+
+@dataclass(frozen=True)
+class CyclicTest:
+    """What a test of cycles gives; forces press, and displacements of the head go with them.
+
+    `stiffness` is what is read, force over displacement [N/m], and `stuck` that of the same system with its contacts
+    stuck, in steady oscillation. `angle` omega t [rad], `force` [N] and `displacement` [m] are (s,). Of the last cycle:
+    `work` of the force, and `taken` by dashpots and contacts or stored [J], which is the same but for the time step.
+    """
+
+    stiffness: complex
+    stuck: complex
+    angle: np.ndarray
+    force: np.ndarray
+    displacement: np.ndarray
+    work: float
+    taken: float
+
+
+def run_cycles(
+    system: BondedSystem,
+    law: AnyLaw,
+    skeleton: Skeleton,
+    frequency: float,
+    force: float,
+    programme: Programme,
+) -> CyclicTest:
+    """Press the head by a force of this amplitude [N] at `frequency` [Hz]; weight is left out, and bonds do not break.
+
+    The scheme is fitted to the frequency: films alone have no error of the time step in steady oscillation.
+    """
+    omega, head = 2.0 * np.pi * frequency, system.driven
+    stuck = stuck_stiffness(system, law, skeleton, omega)
+    loose = _loose(system)
+    scheme = Scheme.named("fitted", 2.0 * np.pi / programme.samples)
+    time_step = 1.0 / (frequency * programme.samples)
+    state = CondensedState.rest_state(loose, law)
+    stepper = CompliantStepper(
+        loose, law, time_step / scheme.a, state, skeleton, TOLERANCE * force / abs(stuck)
+    )
+    strain, inertia = diagonal_form(loose.weight), diagonal_form(loose.mass)
+    work = dashpots = began = 0.0
+
+    def held(now: History) -> float:
+        """In motion, films and contacts [J]; what friction took counts as held."""
+        stress = now.values["sigma"], now.values["kelvin"]
+        moving = inertia(now.values["velocity"], now.values["velocity"])
+        return 0.5 * (moving + form_of_springs(law, strain, stress, stress)) + stepper.grip.held(skeleton)
+
+    angle = programme.angles()
+    forces = force * programme.stress(angle)
+    displacement = np.zeros_like(forces)
+    earlier = now = History.of(state, 0.0)
+    for n in range(1, angle.size):
+        base = now.extrapolate(earlier, scheme.b / scheme.a)
+        base.put(state)
+        loose.load[head] = -forces[n]
+        stepper.advance(0.0)
+        earlier, now = now, History.of(state, 0.0)
+        displacement[n] = -state.displacement[head]
+        # rates of the scheme, of second order as the motion is
+        rate = (now.values["kelvin"] - base.values["kelvin"]) / stepper.dt
+        work -= time_step * forces[n] * state.velocity[head]
+        dashpots += time_step * power_of_dashpots(law, strain, state.sigma, rate)
+        if n == angle.size - 1 - programme.samples:
+            work, dashpots, began = 0.0, 0.0, held(now)
+    read = programme.phasor(forces, angle) / programme.phasor(displacement, angle)
+    return CyclicTest(read, stuck, angle, forces, displacement, work, dashpots + held(now) - began)
+
+
+def stuck_stiffness(system: BondedSystem, law: AnyLaw, skeleton: Skeleton, omega: float) -> complex:
+    """Force over displacement of the head [N/m] at `omega` [rad/s], contacts stuck under their preload."""
+    bonds = system.weight * law.discrete_modulus(omega, 0.0)
+    bonds[skeleton.rows] += skeleton.stiffness(skeleton.overlap)
+    weight = np.abs(bonds)
+    return driving_force(replace(system, weight=weight), bonds / weight, omega)
+
+
+def _loose(system: BondedSystem) -> BondedSystem:
+    """The same without weight, its head free to follow a force: what is driven instead is bonded to nothing."""
+    none = sparse.csr_matrix((system.weight.size, 1))
+    return replace(
+        system,
+        operator=sparse.hstack([system.operator, none]).tocsr(),
+        mass=np.append(system.mass, 1.0),
+        load=np.zeros(system.mass.size + 1),
+        driven=system.mass.size,
+    )
