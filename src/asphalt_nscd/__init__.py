@@ -16,6 +16,7 @@ __version__ = "0.1.0"
 # and type checkers read.
 _NAMES = {
     "Bonds": "bending.settings",
+    "Cycling": "bending.further_settings",
     "Comparison": "api.comparison",
     "Diagnosis": "api.diagnosis",
     "Draws": "diagnosis.settings",
@@ -37,6 +38,7 @@ _NAMES = {
     "Vibration": "specimen.settings",
     "bend": "api.bending",
     "compare": "api.comparison",
+    "cycle": "api.bending",
     "diagnose": "api.diagnosis",
     "export": "api.exporting",
     "fatigue": "api.fatigue",

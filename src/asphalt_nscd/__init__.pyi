@@ -1,5 +1,6 @@
 from asphalt_nscd.api.bending import Test as Test
 from asphalt_nscd.api.bending import bend as bend
+from asphalt_nscd.api.bending import cycle as cycle
 from asphalt_nscd.api.bending import hold as hold
 from asphalt_nscd.api.comparison import Comparison as Comparison
 from asphalt_nscd.api.comparison import compare as compare
@@ -18,6 +19,7 @@ from asphalt_nscd.api.specimens import Specimen as Specimen
 from asphalt_nscd.api.specimens import pour as pour
 from asphalt_nscd.api.specimens import read_packing as read_packing
 from asphalt_nscd.api.specimens import specimen as specimen
+from asphalt_nscd.bending.further_settings import Cycling as Cycling
 from asphalt_nscd.bending.further_settings import FatigueLaw as FatigueLaw
 from asphalt_nscd.bending.further_settings import Hold as Hold
 from asphalt_nscd.bending.rig import Rig as Rig

@@ -11,7 +11,7 @@ from scipy import sparse
 from asphalt_nscd.bending.cycles import CyclicTest, run_cycles
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
-from asphalt_nscd.nscd.stepping.skeleton import Skeleton
+from asphalt_nscd.nscd.stepping.skeleton import Grip, Skeleton
 from asphalt_nscd.rheology.as_run import Programme
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.specimen.prism import pulled_system
@@ -84,6 +84,20 @@ def test_mindlin(row):
         0.02,
         "Johnson 1985, Eq. 7.58",
     )
+
+
+def test_unloaded(row):
+    """Sheared, unloaded and sheared back: what it held beyond its new stiffness is lost, and no force is left."""
+    _, skeleton = contact(1)
+    loaded = skeleton.stiffness(skeleton.overlap)[1]
+    shear, opening = 1e-3 * FRICTION * PRELOAD / loaded, 2.0 / 3.0 * skeleton.overlap[0]
+    grip, reaction = Grip.rest(skeleton), np.zeros(3)
+    for place in ([0.0, shear, 0.0], [opening, shear, 0.0], [opening, 0.0, 0.0]):
+        reaction, grip = grip.moved(skeleton, np.array(place))
+    unloaded = skeleton.stiffness(skeleton.overlap - opening)[1]
+    source = "Thornton & Randall 1988"
+    row("unloaded contact, loss (J)", 0.5 * (loaded - unloaded) * shear**2, grip.slipped, 1e-9, source)
+    row("unloaded contact, force left over its largest", 0.0, reaction[1] / (loaded * shear), 1e-9, source)
 
 
 @cache

@@ -18,7 +18,7 @@ from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told, unsettled
 from asphalt_nscd.bending.case import RunOptions, load_case
 from asphalt_nscd.bending.condensing import condensed, idle_option_note
-from asphalt_nscd.bending.further_settings import Hold
+from asphalt_nscd.bending.further_settings import Cycling, Hold
 from asphalt_nscd.bending.hold import coarse
 from asphalt_nscd.bending.hold import hold as of_hold
 from asphalt_nscd.bending.model import Model, model_of
@@ -302,6 +302,63 @@ def hold(
     table = of_hold(_model(_Once(given), bonds), law.of_bonds(lowest, temperature_C, highest).bonds, held)
     _warn([idle_option_note(bonds, given.bonded.area), coarse(table)])
     return table
+
+
+@checked
+def cycle(
+    specimen: Specimen | str | Path,
+    law: Law | str | Path,
+    frequency_Hz: float,
+    temperature_C: float,
+    *,
+    cycling: Cycling = Cycling(),  # noqa: B008  frozen, and the next
+    bonds: Bonds = Bonds(),  # noqa: B008
+) -> pd.DataFrame:
+    """Press a specimen whose grains touch, from rest: Hertz contacts with Mindlin's friction beside the bonds.
+
+    Parameters
+    ----------
+    specimen : Specimen or path
+        Bonded spheres. Their weight is left out, and bonds do not break.
+    law : Law or path
+        Of the bonds. Of a law of all temperatures, bonds follow a Kelvin chain that is within 0.1 % of it.
+    frequency_Hz, temperature_C : float
+        Of the test [Hz], [degC].
+    cycling : Cycling
+        Amplitude, pressure on the grains [Pa], their friction, cycles, and how the record is read.
+    bonds : Bonds
+        Poisson's ratio of bonds, and how the head is held.
+
+    Returns
+    -------
+    DataFrame
+        One row a step (n,): time_s, force_N, displacement_m, pressing. attrs: E_MPa and phase_deg as read; E_stuck_MPa
+        and phase_stuck_deg if no contact slipped; contacts; energy_error.
+
+    Raises
+    ------
+    InputError
+        With one sentence, where the law does not hold at this temperature, no grains touch, or contacts find no
+        balance.
+
+    Examples
+    --------
+    >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
+    >>> packing = pour({6.0: 260}, (0.1, 0.02, 0.1), vibration=Vibration(duration=0.0))
+    >>> g = {"b_mm": 16, "B_mm": 24, "e_mm": 20, "h_mm": 100, "mass_kg": 0.1, "mobile_mass_kg": 0.1}
+    >>> law = Law.burgers(Em_Pa=2.4e9, eta_m_Pa_s=0.4e9, Ek_Pa=4.8e9, eta_k_Pa_s=0.08e9, temperature_C=40)
+    >>> test = cycle(specimen(packing, g, area="facets"), law, 10.0, 40.0, cycling=Cycling(all_cycles=5))
+    >>> test.attrs["contacts"] > 100, abs(test.attrs["energy_error"]) < 0.01
+    (True, True)
+    """
+    from asphalt_nscd.bending.cycles import (
+        cycle as of_cycles,
+    )  # kernels of the contacts take a second to load
+
+    given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
+    law = law if isinstance(law, Law) else Law.read(law)
+    followed = law.of_bonds(frequency_Hz / cycling.all_cycles, temperature_C, frequency_Hz).bonds
+    return of_cycles(_model(_Once(given), bonds), followed, frequency_Hz, cycling)
 
 
 def _warn(sentences: list[str]) -> None:

@@ -5,8 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import pandas as pd
 from scipy import sparse
+from scipy.spatial import ConvexHull
 
+from asphalt_nscd.bending.bending_test import bond_law
+from asphalt_nscd.bending.further_settings import Cycling
+from asphalt_nscd.bending.model import Model
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.compliant import CompliantStepper
@@ -16,7 +22,10 @@ from asphalt_nscd.nscd.stepping.harmonic import driving_force
 from asphalt_nscd.nscd.stepping.scheme import History, Scheme
 from asphalt_nscd.nscd.stepping.skeleton import Skeleton
 from asphalt_nscd.rheology.as_run import Programme
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.chain import KelvinChain
 
+TOUCHING = 0.005  # of the distance of two centres: a smaller gap in the poured layer is a contact, as in the forecast
 TOLERANCE = 1e-6  # of the motion of the head: how far an opening may lie from that in balance
 
 
@@ -36,6 +45,69 @@ class CyclicTest:
     displacement: np.ndarray
     work: float
     taken: float
+
+
+def cycle(model: Model, law: Burgers | KelvinChain, frequency: float, cycling: Cycling) -> pd.DataFrame:
+    """One test of a specimen whose grains touch; each step has time_s, force_N and displacement_m, pressing.
+
+    `attrs`: E_MPa and phase_deg as they are read, E_stuck_MPa and phase_stuck_deg of the specimen with its contacts
+    stuck, contacts, and energy_error, what the work of the last cycle lacks, over that work.
+    """
+    chain = bond_law(law)
+    skeleton = skeleton_of(model, cycling.pressure_Pa, cycling.skeleton_friction)
+    stuck = stuck_stiffness(model.system, chain, skeleton, 2.0 * np.pi * frequency)
+    amplitude = cycling.amplitude_m or model.geometry.usual_amplitude()
+    programme = Programme(
+        cycling.haversine, cycling.all_cycles, cycling.read_cycles, cycling.drift, cycling.steps_in_cycle
+    )
+    try:
+        test = run_cycles(model.system, chain, skeleton, frequency, abs(stuck) * amplitude, programme)
+    except ArithmeticError as error:
+        raise InputError(f"{model.name}: {error}; lower the amplitude, or give more steps.") from None
+    table = pd.DataFrame({"time_s": test.angle / (2.0 * np.pi * frequency)})
+    table["force_N"], table["displacement_m"] = test.force, test.displacement
+    table.attrs = {"specimen": model.name, "contacts": skeleton.bonds.size}
+    for name, stiffness in (("", test.stiffness), ("_stuck", stuck)):
+        modulus = complex(
+            model.geometry.complex_modulus(frequency, abs(stiffness), 1.0, float(np.angle(stiffness)))
+        )
+        table.attrs |= {
+            f"E{name}_MPa": abs(modulus) / 1e6,
+            f"phase{name}_deg": float(np.degrees(np.angle(modulus))),
+        }
+    table.attrs["energy_error"] = float(1.0 - test.taken / test.work)
+    return table
+
+
+def told(table: pd.DataFrame) -> str:
+    """Say in one line what is read, and what would be if no contact slipped."""
+    of = table.attrs
+    return (
+        f"|E*| = {of['E_MPa']:.4g} MPa, phase {of['phase_deg']:.2f} deg; with all {of['contacts']} contacts stuck "
+        f"{of['E_stuck_MPa']:.4g} MPa, {of['phase_stuck_deg']:.2f} deg"
+    )
+
+
+def skeleton_of(model: Model, pressure: float, friction: float) -> Skeleton:
+    """Contacts between grains that touched when they were poured, preloaded by `pressure` [Pa].
+
+    Grains of a specimen are shrunk alike, so that these are the pairs whose gap over their distance is the least.
+    """
+    shape, n = model.shape, model.spheres
+    first, second, position = shape["first"], shape["second"], shape["position_m"]
+    radius = shape["radius_m"]
+    between = np.flatnonzero(np.maximum(first, second) < n)
+    if not between.size:
+        raise InputError(f"{model.name}: no two grains are bonded; take a specimen of more grains.")
+    apart = model.system.gap[between] / np.linalg.norm(
+        position[first[between]] - position[second[between]], axis=1
+    )
+    touching = between[apart < apart.min() + TOUCHING]
+    one, two = first[touching], second[touching]
+    effective = radius[one] * radius[two] / (radius[one] + radius[two])
+    length = np.linalg.norm(position[one] - position[two], axis=1)
+    volume = float(ConvexHull(position).volume)  # of the centres, between which the forces act
+    return Skeleton.preloaded(touching, effective, length, volume, pressure, friction=friction)
 
 
 def run_cycles(

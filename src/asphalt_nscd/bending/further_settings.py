@@ -81,6 +81,59 @@ class Hold(Ranged):
 
 
 @dataclass(frozen=True)
+class Cycling(Ranged):
+    """A force commanded from rest on a specimen whose grains touch, and how its record is read.
+
+    Parameters
+    ----------
+    amplitude_m : float, optional
+        Amplitude of the head's displacement that the force would cause if no contact slipped, m. The default, that of
+        usual tests.
+    pressure_Pa : float
+        Pressure on the skeleton of grains, by compaction or confinement, Pa. Forces of contacts are exponential about
+        its mean.
+    skeleton_friction : float
+        Coefficient of friction between the grains.
+    haversine : bool
+        The force presses only; else it pulls as much as it presses.
+    all_cycles : int
+        Cycles from rest.
+    read_cycles : int
+        Cycles that are read, the last ones.
+    drift : bool
+        The fit to the record has a term for its drift.
+    steps_in_cycle : int
+        Time steps in a cycle, by a scheme fitted to it.
+
+    Raises
+    ------
+    InputError
+        If more cycles are read than there are.
+
+    Examples
+    --------
+    >>> Cycling(pressure_Pa=500e3).haversine
+    True
+    """
+
+    amplitude_m: float | None = option(default=None, low=1e-12, high=1e-3)
+    pressure_Pa: float = option(default=10e3, low=1.0, high=10e6)
+    skeleton_friction: float = option(default=0.5, low=0.0, high=10.0)
+    haversine: bool = option(default=True)
+    all_cycles: int = option(default=10, low=1, high=1000)
+    read_cycles: int = option(default=5, low=1, high=1000)
+    drift: bool = option(default=True)
+    steps_in_cycle: int = option(default=32, low=20, high=1000)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.read_cycles > self.all_cycles:
+            raise InputError(
+                f"cycles: {self.read_cycles} are read of {self.all_cycles}; give fewer read_cycles."
+            )
+
+
+@dataclass(frozen=True)
 class Fall(Ranged):
     """How a specimen falls, and how that is computed.
 

@@ -1,0 +1,55 @@
+"""Specimens whose grains touch: through files and commands, and what is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pytest
+from click.testing import CliRunner
+from theory.specimens import jittered_beam
+
+from asphalt_nscd.bending import cycles
+from asphalt_nscd.bending.condensing import condensed
+from asphalt_nscd.bending.cycles import cycle
+from asphalt_nscd.bending.further_settings import Cycling
+from asphalt_nscd.bending.model import model_of
+from asphalt_nscd.bending.settings import Bonds
+from asphalt_nscd.cli import cycle as command
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import Record, save
+from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.laws_io import write_law
+
+LAW = Burgers(0.24e9, 0.04e9, 0.48e9, 0.008e9)
+CONTENT = condensed(jittered_beam(shape=(3, 2, 13), area="facets"), "beam", Bonds())
+
+
+def test_a_beam_bends_with_contacts_and_its_file_is_that_of_the_command(monkeypatch, tmp_path):
+    monkeypatch.setattr(cycles, "TOUCHING", 0.1)  # grains of this beam are apart
+    model = model_of(Record(*CONTENT, ""))
+    slight, strong = (
+        cycle(model, LAW, 10.0, Cycling(amplitude_m=a, haversine=False, all_cycles=4, read_cycles=2))
+        for a in (1e-9, 1e-4)
+    )
+    assert slight.attrs["contacts"] > 10 and abs(strong.attrs["energy_error"]) < 0.01
+    assert slight.attrs["E_MPa"] == pytest.approx(slight.attrs["E_stuck_MPa"], rel=0.01)
+    assert strong.attrs["phase_deg"] > strong.attrs["phase_stuck_deg"] + 0.01
+    save(tmp_path / "model.h5", "model", *CONTENT)
+    write_law(tmp_path / "law.json", LAW, source="stated", temperature=40.0)
+    options = "--temperature-c 40 --frequency-hz 10 --all-cycles 4 --read-cycles 2 --no-haversine".split()
+    options += ["--amplitude-m", "1e-4"]
+    given = [
+        str(tmp_path / "model.h5"),
+        "--law",
+        str(tmp_path / "law.json"),
+        "--output",
+        str(tmp_path / "t.csv"),
+    ]
+    told = CliRunner().invoke(command.command, [*given, *options], catch_exceptions=False)
+    assert f"phase {strong.attrs['phase_deg']:.2f} deg" in told.output
+    np.testing.assert_allclose(pd.read_csv(tmp_path / "t.csv"), strong, rtol=1e-6, atol=1e-15)
+
+
+def test_refused():
+    with pytest.raises(InputError, match="fewer read_cycles"):
+        Cycling(all_cycles=3)
