@@ -32,8 +32,11 @@ FONTS = """(() => {
   const small = [], walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   while (walk.nextNode()) {
     const node = walk.currentNode;
-    const size = parseFloat(getComputedStyle(node.parentElement).fontSize);
-    if (node.textContent.trim() && size < LEAST) small.push(node.textContent.trim().slice(0, 40));
+    const plot = node.parentElement.ownerSVGElement;
+    const scale = plot ? plot.getBoundingClientRect().width / plot.viewBox.baseVal.width : 1;
+    const size = scale * parseFloat(getComputedStyle(node.parentElement).fontSize);
+    const seen = node.parentElement.getClientRects().length > 0;
+    if (node.textContent.trim() && size < LEAST && seen) small.push(node.textContent.trim().slice(0, 40));
   }
   return small;
 })()"""

@@ -28,9 +28,9 @@ CONTRAST = """(() => {
   const found = [], walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   while (walk.nextNode()) {
     const text = walk.currentNode.textContent.trim(), element = walk.currentNode.parentElement;
-    if (!text || !element.getClientRects().length || element.closest('title, script, style, .skip')) continue;
+    if (!text || !element.getClientRects().length || element.closest('svg, title, script, style, .skip')) continue;
     const style = getComputedStyle(element);
-    const a = light(parse(element.ownerSVGElement ? style.fill : style.color)), b = light(behind(element));
+    const a = light(parse(style.color)), b = light(behind(element));
     const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
     if (ratio < LEAST) found.push([text.slice(0, 40), ratio]);
   }

@@ -12,7 +12,7 @@ import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
-from asphalt_nscd.api.pictures import drawing, sheet, shown_in_notebooks
+from asphalt_nscd.api.pictures import sheet, shown_in_notebooks
 from asphalt_nscd.api.results import Result
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told, unsettled
@@ -139,14 +139,8 @@ class Test(Result):
         -------
         Figure
             A Matplotlib figure; `savefig` writes it.
-
-        Raises
-        ------
-        ModuleNotFoundError
-            Where Matplotlib, of the extra `figures`, is not installed.
         """
-        with drawing():
-            from matplotlib.figure import Figure
+        from matplotlib.figure import Figure
 
         figure = Figure(figsize=(3.5, 2.8), layout="constrained")
         axes = figure.subplots()

@@ -16,7 +16,7 @@ import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
-from asphalt_nscd.api.pictures import drawing, shown_in_notebooks
+from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.api.tables import Measurements, campaign_in
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.record.measured_limits import Progress, Trials, verify
@@ -224,7 +224,7 @@ class Diagnosis:
         return self._figure("fig_black")
 
     def plot_master_curve(self) -> Figure:
-        """Draw |E*|, phase and their residuals against reduced frequency, and the shift factors.
+        """Draw |E*| and phase against reduced frequency, and the shift factors.
 
         Returns
         -------
@@ -308,8 +308,7 @@ class Diagnosis:
 
     def _figure(self, name: str) -> Figure:
         # By name: a step of the workflow that imports this module must not run again after a change to a figure.
-        with drawing():
-            draw = import_module(f"asphalt_nscd.reporting.figures.{name}").draw
+        draw = import_module(f"asphalt_nscd.reporting.figures.{name}").draw
         # Figures are made from files, as in a study.
         with TemporaryDirectory() as folder:
             self.outcome.write(folder)

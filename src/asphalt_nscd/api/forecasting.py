@@ -12,7 +12,7 @@ import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
-from asphalt_nscd.api.pictures import drawing, shown_in_notebooks
+from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.forecasting import written
 from asphalt_nscd.forecasting.forecast import Forecast as ForecastOfLevels
 from asphalt_nscd.forecasting.forecast import Networks, kept_in
@@ -96,9 +96,7 @@ class Forecast:
         Figure
             A Matplotlib figure.
         """
-        with drawing():
-            # Within `drawing`: a laboratory may lack Matplotlib, 95 MB, and is then told the extra that has it.
-            from asphalt_nscd.reporting.figures.forecast_panels import curves
+        from asphalt_nscd.reporting.figures.forecast_panels import curves
 
         return shown_in_notebooks(curves(self.found, self.table, self.rivals))
 
@@ -110,8 +108,7 @@ class Forecast:
         Figure
             A Matplotlib figure.
         """
-        with drawing():
-            from asphalt_nscd.reporting.figures.forecast_panels import levels
+        from asphalt_nscd.reporting.figures.forecast_panels import levels
 
         return shown_in_notebooks(levels(self.found))
 

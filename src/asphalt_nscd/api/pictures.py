@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from html import escape
 from io import BytesIO
 from typing import TYPE_CHECKING
@@ -37,17 +36,6 @@ def sheet(title: str, rows: Mapping[str, str], notes: Sequence[str] = ()) -> str
     items = "".join(f"<li>{escape(note)}</li>" for note in notes)
     folded = f"<details><summary>Notes</summary><ul>{items}</ul></details>" if notes else ""
     return f"<p><b>{escape(title)}</b></p><table><tbody>{cells}</tbody></table>{folded}"
-
-
-@contextmanager
-def drawing() -> Iterator[None]:
-    """Within it, what is missing for a figure says which extra has it."""
-    try:
-        yield
-    except ModuleNotFoundError as missing:
-        # A note, so that the error keeps its kind and its traceback.
-        missing.add_note("Figures need the extra: pip install 'asphalt-nscd[figures]'")
-        raise
 
 
 def shown_in_notebooks(figure: Figure) -> Figure:

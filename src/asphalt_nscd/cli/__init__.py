@@ -40,7 +40,6 @@ _MENDS = {
 }
 # Modules of the extras in pyproject.toml.
 _OF_EXTRAS = dict.fromkeys(("docutils", "rocrate", "snakemake"), "workflow")
-_OF_EXTRAS["matplotlib"] = "figures"
 _OF_EXTRAS |= dict.fromkeys(("llvmlite", "numba", "pyamg"), "simulation")
 _NO_MEMORY = "the memory is used up; end other programs, or run fewer jobs at a time (--cores 1)."
 

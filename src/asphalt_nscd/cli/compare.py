@@ -32,7 +32,7 @@ def command(
     table, curves = made.table, made.curves
     for name, diagnosis in made.diagnoses.items():
         diagnosis.outcome.write(output / name)
-        _data.part("reporting.pages", "laboratory").write_page(output / name, f"Diagnosis of {name}")
+        _data.part("reporting.pages", "diagnosis_page").write_page(output / name, f"Diagnosis of {name}")
     sheets = {"Ranking": table, "Curves at 15 degC": curves}
     names = ["comparison.html", "comparison.xlsx"]
     said = ""

@@ -1,7 +1,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -100,12 +99,8 @@ def command(
     names = diagnosis.outcome.write(output)
     if page:
         names.append(_data.part("exports.formats", "xlsx").corrected_workbook(output).name)
-        # An extra: the page draws its plots without it.
-        if find_spec("matplotlib"):
-            names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)
-        names.append(_data.part("reporting.pages", "laboratory").write_page(output, title).name)
+        names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)
+        names.append(_data.part("reporting.pages", "diagnosis_page").write_page(output, title).name)
     click.echo(f"{diagnosis.details if details else diagnosis}\n\nWritten to {output}: {', '.join(names)}.")
     if page:
         click.echo(f"For the reasons and figures, open {output / names[-1]} in a browser.")
-        if not find_spec("matplotlib"):
-            click.echo("For report.pdf, pages to hand on: pip install 'asphalt-nscd[figures]'.")

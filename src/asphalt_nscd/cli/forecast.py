@@ -21,8 +21,6 @@ def command(
 
     RECIPE: YAML as data/forecast/recipe.yaml.
     """
-    if page:  # before the work, since it needs the extra `figures`
-        from asphalt_nscd.reporting.pages.forecast_page import write_page
     from asphalt_nscd.forecasting.forecast import Networks, forecast, kept_in
     from asphalt_nscd.forecasting.recipe import read_recipe
     from asphalt_nscd.forecasting.written import points, write
@@ -37,6 +35,8 @@ def command(
         )
     names = write(found, output)
     if page:
+        from asphalt_nscd.reporting.pages.forecast_page import write_page
+
         names.append(write_page(found, output).name)
     frame = points(found)
     click.echo(f"{asked.name}: forecast of {len(frame)} points, nothing fitted. {asked.caveat}".rstrip())

@@ -213,8 +213,8 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     from asphalt_nscd.diagnosis.settings import Known
     from asphalt_nscd.exports.formats.xlsx import corrected_workbook
     from asphalt_nscd.reporting.pages import stiffness_page
+    from asphalt_nscd.reporting.pages.diagnosis_page import write_page
     from asphalt_nscd.reporting.pages.handout import write_handout
-    from asphalt_nscd.reporting.pages.laboratory import write_page
 
     title = f"Diagnosis of {', '.join(path.name for path in paths)}"
     campaign = campaign_in(list(paths), None, choices.columns, choices.measured_in)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -13,51 +12,54 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from asphalt_nscd.diagnosis.written import conditions, read_diagnosis, read_residuals
-from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures import panels, style
 
-LINES: dict[str, dict[str, Any]] = {"before": {"lw": 0.8, "ls": (0, (2.5, 1.5))}, "after": {"lw": 1.1}}
-COLUMNS = {"measured": ("E_MPa", "phase_deg")}
-COLUMNS |= {when: (f"E_{when}_MPa", f"phase_{when}_deg") for when in LINES}
+LINES: dict[str, dict[str, Any]] = {"before": {"lw": 0.7, "ls": (0, (2.5, 1.5))}, "after": {"lw": 1.0}}
 
 
 @style.journal
 def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     """Draw (a) |E*| against phase, (b) loss against storage modulus; points are measured, lines simulated."""
-    content = read_diagnosis(diagnosis)
-    cells = conditions(read_residuals(residuals), content["scatter"])
-    figure, (black, cole) = style.new_figure(style.SINGLE, 150.0, rows=2)
-    temperatures = sorted(cells["temperature_C"].unique())
-    looks = style.series(len(temperatures))
-    for temperature, (colour, marker) in zip(temperatures, looks, strict=True):
-        rows = cells[cells["temperature_C"] == temperature].sort_values("frequency_Hz")
-        _isotherm(black, rows, lambda norm, phase: (np.degrees(phase), norm), colour, marker)
-        _isotherm(
-            cole, rows, lambda norm, phase: (norm * np.cos(phase), norm * np.sin(phase)), colour, marker
-        )
-    black.set_yscale("log")
-    style.plain_log_axis(black.yaxis)
-    black.set_xlabel("phase angle (°)")
-    black.set_ylabel("|E*| (GPa)")
-    cole.set_xlabel("storage modulus E1 (GPa)")
-    cole.set_ylabel("loss modulus E2 (GPa)")
-    style.letter(black, "a", "Black diagram")
-    style.letter(cole, "b", "Cole-Cole plane")
-    style.isotherm_legends(figure, _keys(content["origin"]), temperatures)
+    content, tests = read_diagnosis(diagnosis), read_residuals(residuals)
+    means = conditions(tests, content["scatter"])
+    figure, (upper, lower) = style.new_figure(style.SINGLE, 150.0, rows=2)
+    temperatures = sorted(tests["temperature_C"].unique())
+    looks = dict(zip(temperatures, style.series(len(temperatures)), strict=True))
+    black(upper, tests.assign(group=tests["temperature_C"]), means, looks)
+    for at, rows in tests.groupby("temperature_C"):
+        panels.points(lower, *_cole(rows, ""), looks[at], rows)
+    _modelled(lower, means, _cole)
+    lower.set(xlabel="storage modulus E1 (GPa)", ylabel="loss modulus E2 (GPa)")
+    style.letter(upper, "a", "Black diagram")
+    style.letter(lower, "b", "Cole-Cole plane")
+    style.isotherm_legends(figure, keys(content["origin"]), temperatures)
     return figure
 
 
-def _isotherm(axes: Axes, rows: pd.DataFrame, plane: Callable[..., Any], colour: Any, marker: str) -> None:
-    for what, (norm, phase) in COLUMNS.items():
-        x, y = plane(rows[norm].to_numpy() / 1e3, np.radians(rows[phase].to_numpy()))
-        if what == "measured":
-            axes.plot(x, y, ls="", marker=marker, color=colour, markerfacecolor="white", zorder=3)
-        else:
-            axes.plot(x, y, color=colour, **LINES[what])
+def black(axes: Axes, tests: pd.DataFrame, means: pd.DataFrame, looks: dict[Any, tuple[Any, str]]) -> None:
+    """Draw |E*| against phase: tests of each `group` by its colour and mark, and what was modelled (`means`)."""
+    for name, rows in tests.groupby("group"):
+        panels.points(axes, rows["phase_deg"], rows["E_MPa"] * 1e-3, looks[name], rows)
+    _modelled(axes, means, lambda rows, end: (rows[f"phase{end}_deg"], rows[f"E{end}_MPa"] * 1e-3))
+    axes.set_xlabel(panels.QUANTITIES["phase"][2])
+    panels.quantity_axis(axes, "E")
 
 
-def _keys(origin: str) -> list[Line2D]:
-    point: dict[str, Any] = {"ls": "", "marker": "o", "markerfacecolor": "white"}
-    keys = [Line2D([], [], color=style.INK, label=origin, **point)]
-    return keys + [
-        Line2D([], [], color=style.INK, label=f"simulated {when}", **LINES[when]) for when in LINES
+def _cole(rows: pd.DataFrame, end: str) -> tuple[np.ndarray, np.ndarray]:
+    """Storage and loss modulus [GPa] of columns that end in `end`."""
+    star = rows[f"E{end}_MPa"].to_numpy() * 1e-3 * np.exp(1j * np.radians(rows[f"phase{end}_deg"].to_numpy()))
+    return star.real, star.imag
+
+
+def _modelled(axes: Axes, means: pd.DataFrame, plane: Any) -> None:
+    for _, rows in means.sort_values("frequency_Hz").groupby("temperature_C"):
+        for when, look in LINES.items():
+            axes.plot(*plane(rows, f"_{when}"), color=style.INK, zorder=2, **look)
+
+
+def keys(origin: str) -> list[Line2D]:
+    """Entries of a legend: points, and the two lines."""
+    lines = [
+        Line2D([], [], color=style.INK, label=f"simulated {when}", **look) for when, look in LINES.items()
     ]
+    return [panels.key(origin, (style.INK, "o")), *lines]

@@ -1,7 +1,9 @@
-"""Master curves: does one law hold at all temperatures, and where on reduced frequency is something wrong?"""
+"""Master curve: do tests at all temperatures lie on one law, and how well is it known?"""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,91 +13,111 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from asphalt_nscd.diagnosis.criteria import NOTABLE
 from asphalt_nscd.diagnosis.written import conditions, read_diagnosis, read_residuals
-from asphalt_nscd.reporting.figures import numbers, style
+from asphalt_nscd.files.csvinput import read_csv
+from asphalt_nscd.measurements.tables import only_file
+from asphalt_nscd.reporting.figures import numbers, panels, style
 
-ABSENT = """No law common to all temperatures was taken,
-so there are no shift factors and no master curve."""
-RESIDUALS = {
-    "residual_E_{}_percent": "|E*| residual (%)",
-    "residual_phase_{}_deg": "phase residual (°)",
-}
+
+@dataclass(frozen=True)
+class Master:
+    """Tests and curves over reduced_Hz; `shift` is log10 of the factor by isotherm [degC], none without a common law.
+
+    tests: specimen, isotherm_C, reduced_Hz, E_MPa, phase_deg, and filled and words for `panels.points`. law: the same
+    quantities, with their 95 % bands if these are known; in its place isotherms of what was modelled.
+    """
+
+    tests: pd.DataFrame
+    law: pd.DataFrame | None
+    modelled: pd.DataFrame
+    shift: dict[float, float]
+
+    @property
+    def isotherms(self) -> list[float]:
+        """Those tested [degC]."""
+        return sorted(self.tests["isotherm_C"].unique())
+
+    @property
+    def reference(self) -> float:
+        """Temperature [degC] at which the factor is one."""
+        return min(self.shift, key=lambda at: abs(self.shift[at]))
+
+    def panel(self, axes: Axes, quantity: str) -> None:
+        """Draw "E" or "phase" over reduced frequency: points, and the law with its band."""
+        column, scale, _ = panels.QUANTITIES[quantity]
+        looks = dict(zip(self.isotherms, style.series(len(self.isotherms)), strict=True))
+        for isotherm, rows in self.tests.groupby("isotherm_C"):
+            panels.points(axes, rows["reduced_Hz"], scale * rows[column.format("")], looks[isotherm], rows)
+        if self.law is not None:
+            panels.line(axes, "reduced_Hz", quantity, self.law, style.INK)
+        else:
+            for isotherm, rows in self.modelled.groupby("isotherm_C"):
+                panels.line(axes, "reduced_Hz", quantity, rows, looks[isotherm][0], "_after")
+        panels.quantity_axis(axes, quantity)
+        at = (
+            f"reduced frequency (Hz), at {numbers.celsius(self.reference)}"
+            if self.shift
+            else "frequency (Hz)"
+        )
+        style.reduced_axis(axes, at)
+
+    def keys(self, measured: str) -> list[Line2D]:
+        """Entries of a legend: what was `measured`, and the line."""
+        words = "modelled" if self.law is None else "law of the mix, 95 % band"
+        if self.law is not None and "E_low_MPa" not in self.law:
+            words = "law of the mix"
+        point = panels.key(measured, (style.INK, "o"), filled="filled" in self.tests)
+        return [point, Line2D([], [], color=style.INK, lw=1.0, label=words)]
+
+
+def master(
+    tests: pd.DataFrame, residuals: pd.DataFrame, content: dict[str, Any], curve: Sequence[Path] = ()
+) -> Master:
+    """The master curve of tests (specimen, temperature_C, frequency_Hz, E_MPa, phase_deg) of a diagnosis.
+
+    `content` is that of diagnosis.json, `curve` may hold its master_curve.csv.
+    """
+    rung = next((one for one in content["ladder"] if "log10_shift" in one), None)
+    shift = {float(t): value for t, value in rung["log10_shift"].items()} if rung else {}
+    stated = shift or content.get("reading", {}).get("isotherms_C") or residuals["temperature_C"].unique()
+    nominal = [float(at) for at in stated]
+    placed = [_reduced(one, nominal, shift) for one in (tests, residuals)]
+    modelled = conditions(placed[1].assign(temperature_C=placed[1]["isotherm_C"]), content["scatter"])
+    modelled = _reduced(modelled, nominal, shift).sort_values("frequency_Hz")
+    return Master(placed[0], _law(curve) if shift and curve else None, modelled, shift)
+
+
+def _reduced(tests: pd.DataFrame, nominal: list[float], shift: dict[float, float]) -> pd.DataFrame:
+    isotherm = panels.isotherm_of(tests["temperature_C"], nominal)
+    factor = 10.0 ** np.array([shift.get(at, 0.0) for at in isotherm])
+    return tests.assign(isotherm_C=isotherm, reduced_Hz=tests["frequency_Hz"] * factor)
+
+
+def _law(curve: Sequence[Path]) -> pd.DataFrame:
+    """The law of law.json with its bands, else the free master curve."""
+    table = read_csv(only_file(curve, "master curve"))
+    frame = pd.DataFrame({name: table.numbers(name) for name in table.columns})
+    own = {name: name.removeprefix("law_") for name in frame if name.startswith("law_")}
+    frame = frame.rename(columns={"frequency_Hz": "reduced_Hz"})
+    return frame[["reduced_Hz", *own]].rename(columns=own) if own else frame
 
 
 @style.journal
-def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
-    """Draw (a) |E*|, (b) phase, (c, d) their residuals against reduced frequency, and (e) shift factors."""
-    content = read_diagnosis(diagnosis)
-    rung = next((rung for rung in content["ladder"] if "log10_shift" in rung), None)
-    if rung is None:
-        figure, axes = style.new_figure(style.SINGLE, 30.0)
-        axes.set_axis_off()
-        axes.text(0.5, 0.5, ABSENT, ha="center", va="center", transform=axes.transAxes)
-        return figure
-    shift = {float(t): value for t, value in rung["log10_shift"].items()}
-    cells = conditions(read_residuals(residuals), content["scatter"])
-    cells["reduced_Hz"] = cells["frequency_Hz"] * 10.0 ** cells["temperature_C"].map(shift)
-    figure, panels = style.new_figure(style.SINGLE, 200.0, rows=5)
-    norm, phase, off_norm, off_phase, shifts = panels
-    temperatures = sorted(shift)
-    for temperature, (colour, marker) in zip(temperatures, style.series(len(temperatures)), strict=True):
-        rows = cells[cells["temperature_C"] == temperature].sort_values("frequency_Hz")
-        for axes, measured, simulated, scale in (
-            (norm, "E_MPa", "E_after_MPa", 1e-3),
-            (phase, "phase_deg", "phase_after_deg", 1.0),
-        ):
-            axes.plot(rows["reduced_Hz"], rows[simulated] * scale, color=colour, lw=1.0)
-            _points(axes, rows, rows[measured] * scale, colour, marker, filled=False)
-        for axes, column in zip((off_norm, off_phase), RESIDUALS, strict=True):
-            _points(axes, rows, rows[column.format("before")], colour, marker, filled=False)
-            _points(axes, rows, rows[column.format("after")], colour, marker, filled=True)
-        shifts.plot(temperature, shift[temperature], marker=marker, color=colour, ls="")
-    norm.set_yscale("log")
-    style.plain_log_axis(norm.yaxis)
-    norm.set_ylabel("|E*| (GPa)")
-    phase.set_ylabel("phase angle (°)")
-    for axes, words, sigma in zip(
-        (off_norm, off_phase), RESIDUALS.values(), _scatter_of_means(content, cells), strict=True
-    ):
-        axes.axhspan(-NOTABLE * sigma, NOTABLE * sigma, color=style.PALE, lw=0.0, alpha=0.6, zorder=0)
-        axes.set_ylabel(words)
-    reference = min(shift, key=lambda t: abs(shift[t]))  # where a_T is one
-    for axes in panels[:4]:
-        axes.set_xscale("log")
-        axes.sharex(norm)
-    off_phase.set_xlabel(f"reduced frequency (Hz), at {numbers.celsius(reference)}")
-    shifts.set_xlabel("temperature (°C)")
-    shifts.set_ylabel("log10 shift factor")
-    for axes, panel, words in zip(
-        panels,
-        "abcde",
-        ("", "", *[f"{content['origin']} − simulated"] * 2, "shift factors"),
-        strict=True,
-    ):
-        style.letter(axes, panel, words, pad=3.0)
-    style.isotherm_legends(figure, _keys(content["origin"]), temperatures)
+def draw(residuals: list[Path], diagnosis: list[Path], curve: Sequence[Path] = ()) -> Figure:
+    """Draw (a) |E*| and (b) phase over reduced frequency, and (c) shift factors, if one law holds everywhere."""
+    content, tests = read_diagnosis(diagnosis), read_residuals(residuals)
+    made = master(tests, tests, content, curve)
+    heights = (1.0, 1.0, 0.5)[: 2 + bool(made.shift)]
+    figure, axes = style.new_figure(
+        style.SINGLE, 65.0 * sum(heights), rows=len(heights), height_ratios=heights
+    )
+    for ax, quantity, panel in zip(axes, panels.QUANTITIES, "ab", strict=False):
+        made.panel(ax, quantity)
+        style.letter(ax, panel, pad=3.0)
+    if made.shift:
+        for at, look in zip(made.isotherms, style.series(len(made.isotherms)), strict=True):
+            axes[2].plot(at, made.shift[at], color=look[0], marker=look[1], ls="")
+        axes[2].set(xlabel="temperature (°C)", ylabel="log10 shift factor")
+        style.letter(axes[2], "c", "shift factors", pad=3.0)
+    style.isotherm_legends(figure, made.keys(content["origin"]), made.isotherms)
     return figure
-
-
-def _points(
-    axes: Axes, rows: pd.DataFrame, values: pd.Series, colour: Any, marker: str, filled: bool
-) -> None:
-    face = colour if filled else "white"
-    axes.plot(rows["reduced_Hz"], values, ls="", marker=marker, color=colour, markerfacecolor=face, ms=3.6)
-
-
-def _scatter_of_means(content: dict[str, Any], cells: pd.DataFrame) -> list[float]:
-    """Standard deviation of the mean of the least repeated condition: |E*| in percent, phase in degrees."""
-    scatter = content["scatter"]
-    return [scatter[name] / np.sqrt(cells["count"].min()) for name in ("modulus_percent", "phase_deg")]
-
-
-def _keys(origin: str) -> list[Line2D]:
-    point: dict[str, Any] = {"ls": "", "marker": "o", "color": style.INK, "ms": 3.6}
-    return [
-        Line2D([], [], **point, markerfacecolor="white", label=f"a, b: {origin}"),
-        Line2D([], [], color=style.INK, lw=1.0, label="a, b: simulated after"),
-        Line2D([], [], **point, markerfacecolor="white", label="c, d: before"),
-        Line2D([], [], **point, label=f"c, d: after (grey: {NOTABLE:g} s.d.)"),
-    ]

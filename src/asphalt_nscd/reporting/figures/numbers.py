@@ -15,6 +15,12 @@ def minus(number: str) -> str:
     return number.replace("-", "\N{MINUS SIGN}")
 
 
+def plain(value: float) -> str:
+    """A power of ten without an exponent where it is short: 0.001, 1000, 1e5, 1e-6."""
+    text = f"{value:g}" if 1e-3 <= value < 1e5 else f"{value:.0e}".replace("e+0", "e").replace("e-0", "e-")
+    return minus(text)
+
+
 def power(value: float, digits: int = 2) -> str:
     """A positive number as mathematical text for Matplotlib: 2.4e7 -> 2.4 times a power of ten."""
     # 1e-9: rounding must not take a power of ten below its own exponent.

@@ -26,11 +26,11 @@ def save_figure(figure: Figure, stem: str | Path) -> None:
             path.write_bytes(figure_bytes(figure, kind))
 
 
-def figure_bytes(figure: Figure, kind: str) -> bytes:
-    """The figure as a "pdf", "png" or "svg" file: the same bytes whenever it is made."""
+def figure_bytes(figure: Figure, kind: str, **settings: str) -> bytes:
+    """The figure as a "pdf", "png" or "svg" file: the same bytes whenever it is made; `settings` of matplotlib."""
     with matplotlib.rc_context():
         matplotlib.rcdefaults()  # a user's matplotlibrc must not show
-        matplotlib.rcParams.update(RC | {"svg.hashsalt": "asphalt-nscd"})
+        matplotlib.rcParams.update(RC | {"svg.hashsalt": "asphalt-nscd"} | settings)
         content = BytesIO()  # matplotlib's own files complain again, at length, when they are closed
         figure.savefig(content, format=kind, dpi=PNG_DPI, metadata=_METADATA[kind])
         return content.getvalue()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import wraps
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 import matplotlib
 import numpy as np
@@ -19,6 +19,8 @@ from scipy.optimize import isotonic_regression
 
 from asphalt_nscd.reporting.figures import numbers
 
+P = ParamSpec("P")
+R = TypeVar("R")
 SINGLE, WIDE = 90.0, 140.0  # mm, the widths of a journal's column and of a column and a half
 MM = 1.0 / 25.4  # inch
 RC: dict[Any, Any] = {
@@ -59,11 +61,11 @@ DASHES = ("-", (0, (5, 1.5)), (0, (1.2, 1.2)), (0, (5, 1.5, 1.2, 1.5)), (0, (8, 
 MOST_LABELLED_FREQUENCIES = 8
 
 
-def journal(draw: Callable[..., Figure]) -> Callable[..., Figure]:
+def journal(draw: Callable[P, R]) -> Callable[P, R]:
     """The same function, drawing in this style, whatever the user's matplotlibrc says."""
 
     @wraps(draw)
-    def styled(*arguments: Any, **data: Any) -> Figure:
+    def styled(*arguments: P.args, **data: P.kwargs) -> R:
         with matplotlib.rc_context():
             matplotlib.rcdefaults()
             matplotlib.rcParams.update(RC)
@@ -109,6 +111,12 @@ def series(count: int) -> list[tuple[Any, str]]:
     return [(tuple(shade), MARKERS[n % len(MARKERS)]) for n, shade in enumerate(shades)]
 
 
+def kinds(count: int) -> list[tuple[Any, str]]:
+    """Colour and marker of each of `count` things without an order, as mixes and specimens."""
+    hues = colormaps["tab10"].colors  # type: ignore[attr-defined]
+    return [(hues[n % len(hues)], MARKERS[(n + n // len(hues)) % len(MARKERS)]) for n in range(count)]
+
+
 def isotherm_legends(figure: Figure, keys: Sequence[Line2D], temperatures: Sequence[float]) -> None:
     """Above the axes: at the left what `keys` explain, at the right the point of each isotherm of `series`."""
     looks = zip(temperatures, series(len(temperatures)), strict=True)
@@ -135,6 +143,15 @@ def frequency_axis(axes: Axes, frequencies: ArrayLike) -> None:
     else:
         axes.xaxis.set_minor_formatter(NullFormatter())
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+
+
+def reduced_axis(axes: Axes, label: str) -> None:
+    """Make the frequency axis logarithmic over many decades, labelled 0.001, 0.1, ..., 1e5."""
+    axes.set_xscale("log")
+    axes.set_xlabel(label)
+    axes.xaxis.set_major_locator(matplotlib.ticker.LogLocator(numticks=7))
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: numbers.plain(value)))
+    axes.xaxis.set_minor_locator(NullLocator())
 
 
 def plain_log_axis(axis: Any) -> None:

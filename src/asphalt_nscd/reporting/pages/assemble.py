@@ -13,7 +13,7 @@ from typing import Any
 from docutils.core import publish_parts
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE, environment
+from asphalt_nscd.reporting.pages.style import filled
 
 COLUMN = 1000  # px, more than a journal's column of 90 mm has; a broader figure is not shrunk to a telephone
 
@@ -47,8 +47,7 @@ def assemble(
         part.partition(" ")[2]: sorted(shown, key=lambda one: one["order"])
         for part, shown in sorted(parts.items())
     }
-    template = environment().get_template("report.html")
-    return template.render(study=study, style=STYLE, script=SCRIPT, page=page, parts=ordered)
+    return filled("report.html", study=study, page=page, parts=ordered)
 
 
 def _shown(entry: Entry, caption: Path, folder: Path) -> dict[str, Any]:

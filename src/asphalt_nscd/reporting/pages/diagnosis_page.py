@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -22,13 +21,14 @@ from asphalt_nscd.diagnosis.written import (
     three_digits,
 )
 from asphalt_nscd.files.csvinput import read_csv
+from asphalt_nscd.files.store import atomic_path
 from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.measurements.tables import only_file
-from asphalt_nscd.reporting.pages import plots, specimen_plots
-from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE, environment
+from asphalt_nscd.reporting.pages.charts import charts
+from asphalt_nscd.reporting.pages.style import filled, typeset
 from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_ladder
 
-TEMPLATE = "diagnosis_page.html"
+TEMPLATE, PAGE = "diagnosis_page.html", "diagnosis.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
 NOT_THERE = ". That is more than before: do not use this law there"
 INNER = "leave_one_isotherm_out"
@@ -50,27 +50,22 @@ TABLE4 = (
 )
 
 
-CELSIUS, DEGREES, MINUS = (
-    re.compile(r"\bdegC\b"),
-    re.compile(r"(?<=\d) deg\b"),
-    # Not behind a letter, digit or bracket, where a hyphen is one: EN 12697-26.
-    re.compile(r"(?<![\w.)])-(?=\d)"),
-)
-
-
-def typeset(text: str) -> str:
-    """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus."""
-    text = DEGREES.sub("°", CELSIUS.sub("°C", text).replace("+-", "±"))
-    return MINUS.sub("\N{MINUS SIGN}", text)
+def write_page(folder: Path, title: str) -> Path:
+    """Write diagnosis.html from the files of a diagnosis; it links limits.csv and law.json where they are."""
+    names = ("residuals.csv", "causality.csv", "diagnosis.json")
+    residuals, causality, diagnosis = (folder / name for name in names)
+    others = (folder / name for name in ("limits.csv", "law.json"))
+    links = [path.name for path in (residuals, causality, *filter(Path.is_file, others), diagnosis)]
+    curve = list(filter(Path.is_file, [folder / "master_curve.csv"]))
+    content = render(sections([diagnosis], [residuals], [causality], curve=curve), title, links)
+    with atomic_path(folder / PAGE) as path:
+        path.write_text(content, encoding="utf-8")
+    return folder / PAGE
 
 
 def render(content: dict[str, Any], title: str, links: Sequence[str] = ()) -> str:
     """HTML of what `sections` gives; `links` are files beside the page that hold what it shows."""
-    filled = environment()
-    filled.filters["typeset"] = typeset
-    return filled.get_template(TEMPLATE).render(
-        title=title, style=STYLE, script=SCRIPT, links=links, **content
-    )
+    return filled(TEMPLATE, title=title, links=links, **content)
 
 
 def sections(
@@ -89,7 +84,8 @@ def sections(
     rungs = content["ladder"]
     return {
         "first": first(content, ladder),
-        "specimens": specimen_plots.charts(causality, diagnosis),
+        "value": value(content["reported"]),
+        "charts": charts(residuals, causality, diagnosis, curve),
         "origin": sentences.origin(content),
         "scatter": scatter(content),
         # Table 4 is of the paper's mix: beside measurements of another it says nothing.
@@ -100,8 +96,7 @@ def sections(
         ],
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
-        "charts": plots.charts(residuals, diagnosis),
-        "law": law(content, curve),
+        "law": law(content),
         "unexplained": [_unexplained(row) for row in content["unexplained"]],
         "limits": _limits(content["detection_limits"]),
         "limits_caption": _limits_caption(content["estimates_spread"]),
@@ -155,18 +150,27 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
     }
 
 
-def law(content: dict[str, Any], curve: Sequence[Path]) -> dict[str, Any] | None:
-    """What a page shows of law.json: title, charts, parameters with their intervals, and the errors of all laws.
+def value(reported: dict[str, Any]) -> str:
+    """What a standard asks for first, with its 95 % intervals."""
+    at = f"{reported['temperature_C']:g} °C, {reported['frequency_Hz']:g} Hz"
+    modulus, phase = (
+        [reported[f"{name}{end}_{unit}"] for end in ("", "_low", "_high")]
+        for name, unit in (("E", "MPa"), ("phase", "deg"))
+    )
+    beyond = "" if reported.get("within_the_tests", True) else "; extrapolated, no test was made near it"
+    return (
+        f"|E*|({at}) = {modulus[0]:.0f} MPa ({modulus[1]:.0f} to {modulus[2]:.0f}), phase {phase[0]:.1f}° "
+        f"({phase[1]:.1f} to {phase[2]:.1f}){beyond}"
+    )
 
-    `content` is that of diagnosis.json; without the one master_curve.csv in `curve` there is no chart. Returns None
-    where no law was fitted.
-    """
+
+def law(content: dict[str, Any]) -> dict[str, Any] | None:
+    """What a page shows of law.json: title, parameters with intervals, errors of all laws; None if none was fitted."""
     if "law_parameters" not in content:
         return None
     taken = next(one for one in content["laws"] if one["taken"])
     return {
         "title": taken["title"],
-        "charts": [plots.law_chart(taken["title"], curve)] if curve else [],
         "parameters": [_parameter(key, one) for key, one in content["law_parameters"].items()],
         "laws": [
             [

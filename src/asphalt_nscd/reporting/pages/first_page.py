@@ -14,7 +14,8 @@ from asphalt_nscd.diagnosis.written import read_diagnosis, three_digits
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import counted, joined
 from asphalt_nscd.measurements.tables import only_file
-from asphalt_nscd.reporting.pages.diagnosis_page import first, scatter, typeset
+from asphalt_nscd.reporting.pages.diagnosis_page import first, scatter
+from asphalt_nscd.reporting.pages.style import typeset
 from asphalt_nscd.reporting.pages.way import LIKELIEST, held_out, means, read_ladder
 
 ENOUGH = 5000  # spheres

@@ -1,11 +1,13 @@
-"""A table as a page of its own, readable in the report and offline."""
+"""How pages look: style, script, templates; and a table as a page of its own."""
 
 from __future__ import annotations
 
+import re
 from html import escape
 from importlib.resources import files
 from itertools import takewhile
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
@@ -24,9 +26,23 @@ _ALONE = "@media screen { .wide { max-height: 92vh; overflow: auto; } }"
 LONG = 40  # characters of a cell that must not be squeezed into a word a line
 
 
+CELSIUS, DEGREES, MINUS = (
+    re.compile(r"\bdegC\b"),
+    re.compile(r"(?<=\d) deg\b"),
+    # Not behind a letter, digit or bracket, where a hyphen is one: EN 12697-26.
+    re.compile(r"(?<![\w.)])-(?=\d)"),
+)
+
+
+def typeset(text: str) -> str:
+    """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus."""
+    text = DEGREES.sub("°", CELSIUS.sub("°C", text).replace("+-", "±"))
+    return MINUS.sub("\N{MINUS SIGN}", text)
+
+
 def worded(cell: str) -> Markup:
     """The class of a cell that holds a sentence; nothing for a short one."""
-    return Markup(' class="words"') if len(cell) > LONG else Markup("")
+    return Markup(' class="words"') if len(cell) > LONG and not isinstance(cell, Markup) else Markup("")
 
 
 def environment() -> Environment:
@@ -38,8 +54,13 @@ def environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters["worded"] = worded
+    made.filters |= {"worded": worded, "typeset": typeset}
     return made
+
+
+def filled(template: str, **content: Any) -> str:
+    """HTML of a template of this folder, with the style and the script of all pages."""
+    return environment().get_template(template).render(style=STYLE, script=SCRIPT, **content)
 
 
 def page(table: str | Path, title: str) -> str:

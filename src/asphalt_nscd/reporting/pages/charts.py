@@ -1,0 +1,291 @@
+"""Plots of a page: matplotlib's, inline, where every test says what it is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+from zlib import crc32
+
+import matplotlib
+import pandas as pd
+from matplotlib.figure import Figure
+
+from asphalt_nscd.diagnosis.criteria import NOTABLE
+from asphalt_nscd.diagnosis.written import (
+    BEFORE_AFTER,
+    RESIDUALS,
+    conditions,
+    read_causality,
+    read_diagnosis,
+    read_residuals,
+    three_digits,
+)
+from asphalt_nscd.files.words import counted, specimen_named
+from asphalt_nscd.reporting.figures import fig_black, fig_master, fig_residual_map, panels, style
+from asphalt_nscd.reporting.figures.numbers import celsius, minus
+from asphalt_nscd.reporting.figures.save import figure_bytes
+
+ElementTree.register_namespace("", "http://www.w3.org/2000/svg")
+SVG, LINK = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
+BETWEEN = "§"  # the key by which charts find a test, and what is said of it
+WIDTH, HEIGHT = 88.0, 66.0  # mm
+CLEAR = 2.0  # standard errors, below which a difference says little
+HINT = (
+    "Point at a test, tap it, or step through the tests with the arrow keys; Home, End and Escape work too."
+)
+NONE = "No isotherm has the four tests needed to compare modulus and phase."
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Plots that belong together, as SVG, and what they show."""
+
+    name: str
+    title: str
+    caption: str
+    plots: Sequence[str]
+    hint: str = HINT
+
+
+def charts(
+    residuals: Sequence[Path],
+    causality: Sequence[Path],
+    diagnosis: Sequence[Path],
+    curve: Sequence[Path] = (),
+) -> dict[str, Chart]:
+    """By name: "law" (master curve), "specimens" (Black diagram), "causality" and "residuals" (maps)."""
+    content, used, tests = read_diagnosis(diagnosis), read_residuals(residuals), read_causality(causality)
+    stated = [
+        float(at) for at in content.get("reading", {}).get("isotherms_C") or used["temperature_C"].unique()
+    ]
+    used = used.assign(isotherm_C=panels.isotherm_of(used["temperature_C"], stated))
+    means = conditions(used.assign(temperature_C=used["isotherm_C"]), content["scatter"])
+    tests = tests.assign(isotherm_C=panels.isotherm_of(tests["temperature_C"], stated))
+    tests = tests.sort_values(["isotherm_C", "frequency_Hz", "specimen"])
+    tests = tests.assign(
+        filled=tests["reasons"] == "", words=[_words(row) for row in tests.to_dict("records")]
+    )
+    master = fig_master.master(tests, used, content, curve)
+    made = [
+        _law(master),
+        _specimens(master.tests, means),
+        _against_phase(tests),
+        _residuals(used, means, content["scatter"]),
+    ]
+    return {chart.name: chart for chart in made}
+
+
+def _new_figure(width: float, height: float) -> tuple[Figure, Any]:
+    """A figure [mm] whose letters can be read on a telephone; within `style.journal`."""
+    for name in ("axes.labelsize", "legend.fontsize", "xtick.labelsize", "ytick.labelsize"):
+        matplotlib.rcParams[name] = 8.5
+    matplotlib.rcParams["font.size"] = 12.0  # of which the numbers of a map have 0.7
+    return style.new_figure(width, height)
+
+
+def curves(frames: dict[str, pd.DataFrame], label: str) -> list[str]:
+    """|E*| and phase of each named curve over its column frequency_Hz, with bands, as SVG; `label` is of their axis."""
+    return [_curve(frames, label, quantity) for quantity in panels.QUANTITIES]
+
+
+@style.journal
+def _curve(frames: dict[str, pd.DataFrame], label: str, quantity: str) -> str:
+    figure, axes = _new_figure(1.3 * WIDTH, 1.5 * HEIGHT)
+    for n, ((name, rows), (colour, marker)) in enumerate(
+        zip(frames.items(), style.kinds(len(frames)), strict=True)
+    ):
+        look: dict[str, Any] = {"marker": marker, "markevery": (n % 5, 10), "markerfacecolor": "white", "label": name}
+        panels.line(axes, "frequency_Hz", quantity, rows, colour, **look)
+    style.reduced_axis(axes, label)
+    panels.quantity_axis(axes, quantity)
+    _legend(figure, axes.get_legend_handles_labels()[0])
+    return inline(figure, f"{panels.QUANTITIES[quantity][2]} of {counted(len(frames), 'curve')}")
+
+
+def _legend(figure: Figure, handles: Sequence[Any]) -> None:
+    """Above the axes, in as many columns as their names leave room for."""
+    columns = max(1, min(4, 44 // (4 + max(len(handle.get_label()) for handle in handles))))
+    tight = {"borderpad": 0.1, "labelspacing": 0.3, "columnspacing": 1.0, "handlelength": 1.2}
+    figure.legend(handles=handles, loc="outside upper left", ncols=columns, **tight)
+
+
+@style.journal
+def _law(master: fig_master.Master) -> Chart:
+    plots = []
+    for quantity, name in (("E", "|E*|"), ("phase", "phase angle")):
+        figure, axes = _new_figure(WIDTH, HEIGHT)
+        master.panel(axes, quantity)
+        style.isotherm_legends(figure, master.keys("test; hollow: doubtful"), master.isotherms)
+        plots.append(inline(figure, f"{name}, {counted(len(master.tests), 'test')}"))
+    caption = "Tests as they were measured, before any correction."
+    if master.law is not None:
+        caption += (
+            " Law: of the mix, without named causes; its band holds what scatter, specimens, causes and its form leave"
+            " open."
+        )
+    if not master.shift:
+        caption += " No law common to all temperatures was taken, so there are no shift factors."
+    return Chart("law", "Master curve" if master.shift else "Isotherms", caption, plots)
+
+
+@style.journal
+def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
+    names = list(tests["specimen"].unique())
+    looks = dict(zip(names, style.kinds(len(names)), strict=True))
+    plots = []
+    for title, draw in (
+        (
+            "Black diagram",
+            lambda axes: fig_black.black(axes, tests.assign(group=tests["specimen"]), means, looks),
+        ),
+        ("|E*|", lambda axes: _by_specimen(axes, tests, looks)),
+    ):
+        figure, axes = _new_figure(WIDTH, HEIGHT)
+        draw(axes)
+        _legend(figure, [panels.key(name, look, filled=True) for name, look in looks.items()])
+        plots.append(inline(figure, f"{title}, {counted(len(tests), 'test')}"))
+    return Chart(
+        "specimens",
+        "Specimens: Black diagram and master curve",
+        "Tests of one material should lie on one curve. Hollow points mark suspect tests. Lines in the Black diagram: "
+        "modelled before (dashed) and with all causes.",
+        plots,
+    )
+
+
+def _by_specimen(axes: Any, tests: pd.DataFrame, looks: dict[str, tuple[Any, str]]) -> None:
+    for name, rows in tests.groupby("specimen"):
+        panels.points(axes, rows["reduced_Hz"], rows["E_MPa"] * 1e-3, looks[str(name)], rows)
+    style.reduced_axis(axes, "reduced frequency (Hz)")
+    panels.quantity_axis(axes, "E")
+
+
+@style.journal
+def _against_phase(tests: pd.DataFrame) -> Chart:
+    tests = tests.assign(value=tests["phase_deg"] - tests["phase_required_deg"]).dropna(subset="value")
+    # The size of one degree is seen on the best table too.
+    norm = panels.banded(max(float(tests["value"].abs().max()), 1.0) if len(tests) else 1.0)
+    plots = []
+    for name, own in tests.groupby("specimen", sort=False):
+        # Amplitudes share a cell, which shows the worst.
+        worst = own.sort_values("value", key=abs).drop_duplicates(
+            ["temperature_C", "frequency_Hz"], keep="last"
+        )
+        worst = worst.sort_values(["temperature_C", "frequency_Hz"]).assign(framed=False)
+        figure, axes = _new_figure(WIDTH, 45.0)
+        panels.cells(axes, worst, norm)
+        marks = [_marks(row) for row in worst.to_dict("records")]
+        panels.marked(axes, worst.assign(marks=marks))
+        axes.set(xlabel="frequency (Hz)", ylabel="temperature (°C)")
+        axes.set_title(
+            f"{specimen_named(str(name))}: phase less phase required (°)", loc="left", fontsize=8.0
+        )
+        plots.append(inline(figure, f"{specimen_named(str(name))}, {counted(len(worst), 'test')}"))
+    caption = (
+        "In degrees. The required phase is computed from |E*| alone, and no delay or offset is taken off. The list of "
+        "doubtful tests uses the phases at the other frequencies too, so its numbers differ. Cross: suspect, not used. "
+        "Ring: suspect, used. Triangle: a quality limit is exceeded."
+    )
+    return Chart(
+        "causality", "Phase measured less the phase that |E*| requires", caption if plots else NONE, plots
+    )
+
+
+def _marks(row: dict[str, Any]) -> list[str]:
+    suspect = [] if not row["reasons"] else ["doubtful" if row["used"] else "not used"]
+    return suspect + ["quality"] * bool(row["quality_flag"])
+
+
+@style.journal
+def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: dict[str, float]) -> Chart:
+    plots = []
+    for quantity, (name, unit) in {"E": ("|E*|", "%"), "phase": ("phase", "°")}.items():
+        for when in BEFORE_AFTER:
+            column = RESIDUALS[quantity].format(when)
+            figure, axes = _new_figure(WIDTH, 45.0)
+            words = [_condition(row, tests, (name, unit, column, when)) for row in means.to_dict("records")]
+            fig_residual_map.panel(axes, means.assign(words=words), quantity, when, scatter)
+            axes.set(xlabel="frequency (Hz)", ylabel="temperature (°C)")
+            axes.set_title(f"{name}, {when} ({unit})", loc="left", fontsize=8.5)
+            plots.append(inline(figure, f"{name} {when}, {counted(len(means), 'condition')}"))
+    frame = f"A frame: beyond {NOTABLE:g} standard deviations of replicates."
+    caption = f"Measured less modelled, means over specimens. {frame}"
+    return Chart("residuals", "Residual map", caption, plots, HINT.replace("test", "condition"))
+
+
+def _condition(row: dict[str, Any], tests: pd.DataFrame, shown: tuple[str, str, str, str]) -> str:
+    name, unit, column, when = shown
+    own = tests[
+        (tests["isotherm_C"] == row["temperature_C"]) & (tests["frequency_Hz"] == row["frequency_Hz"])
+    ]
+    each = ", ".join(f"{one} {_signed(off)}" for one, off in zip(own["specimen"], own[column], strict=True))
+    return said(
+        ("", row["temperature_C"], row["frequency_Hz"]),
+        f"{celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: {name} measured less modelled {when}, mean "
+        f"{_signed(row[column])} {unit}; specimens: {each}",
+    )
+
+
+def _words(row: dict[str, Any]) -> str:
+    modulus, phase = three_digits(float(row["E_MPa"])), minus(f"{row['phase_deg']:.1f}")
+    words = (
+        f"{specimen_named(str(row['specimen']))}, {celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: "
+        f"|E*| {modulus} MPa, phase {phase}°"
+    )
+    if pd.notna(row["phase_required_deg"]):
+        off = _signed(row["phase_deg"] - row["phase_required_deg"])
+        words += f"; {off}° from what |E*| alone requires (standard error {row['std_error_deg']:.1f}°)"
+    if row["reasons"]:
+        words += f"; suspect, {'used' if row['used'] else 'not used'}: {row['reasons']}"
+    return said((row["specimen"], row["isotherm_C"], row["frequency_Hz"]), words)
+
+
+def _signed(value: float) -> str:
+    """A number with its sign (a true minus) and two digits, without decimals from ten on."""
+    digits = 0 if abs(value) >= 9.95 else 1
+    return minus(f"{round(value, digits) + 0.0:+.{digits}f}")
+
+
+def said(test: tuple[object, float, float], words: str) -> str:
+    """What a point says: `test` is (specimen, isotherm [degC], frequency [Hz]), without a specimen a condition."""
+    specimen, isotherm, frequency = test
+    return f"{specimen}|{isotherm:g}|{frequency:.4g}{BETWEEN}{words}"
+
+
+def inline(figure: Figure, label: str) -> str:
+    """The figure as SVG for a page, with a `label` that a screen reader says; links of points become their titles."""
+    for patch in (figure.patch, *(axes.patch for axes in figure.axes)):
+        if patch.get_facecolor()[:3] == (1.0, 1.0, 1.0):
+            patch.set_alpha(0.0)
+    text = figure_bytes(figure, "svg", **{"svg.fonttype": "none"}).decode()
+    # The page's own letters, and names that no other plot of the page has.
+    text = re.sub(r"font-family: [^;\"]*;? ?", "", text)
+    own = f"s{crc32(text.encode()):x}-"
+    text = re.sub(r'(url\(|href=")#', rf"\1#{own}", text)
+    root = ElementTree.fromstring(text)
+    for name in ("metadata", "defs/{*}style/.."):
+        for unwanted in root.findall(f"{{*}}{name}"):
+            root.remove(unwanted)
+    for element in root.iter():
+        if element.tag == f"{SVG}a":
+            _name(element)
+        if LINK in element.attrib:
+            element.set("href", element.attrib.pop(LINK))
+        if "id" in element.attrib:
+            element.set("id", own + element.attrib["id"])
+    shown = {"role": "group", "aria-roledescription": "chart", "tabindex": "0", "aria-label": label}
+    root.attrib = {"viewBox": root.attrib["viewBox"]} | shown
+    return ElementTree.tostring(root, encoding="unicode")
+
+
+def _name(link: ElementTree.Element) -> None:
+    """Make of a point's link a group with a title."""
+    test, _, words = link.attrib.pop(LINK).partition(BETWEEN)
+    link.tag, link.attrib = f"{SVG}g", {"data-test": test}
+    title = ElementTree.Element(f"{SVG}title")
+    title.text = words
+    link.insert(0, title)
