@@ -10,6 +10,7 @@ from asphalt_nscd.cli import _data
 from asphalt_nscd.cli._options import COLUMNS, MEASURED_IN, SHEET, Geometry, option, step
 from asphalt_nscd.cli._progress import bars
 from asphalt_nscd.diagnosis.settings import Draws, Known, Scatter, Simulated
+from asphalt_nscd.reporting.settings import Heading
 
 PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 
@@ -49,6 +50,7 @@ def command(
     ),
     jobs: int | None = option("Processes of --verify-limits; else one for each core.", None, low=1),
     page: bool = option("Whether to write diagnosis.html, report.pdf and corrected.xlsx too.", True),
+    heading: Heading,
     details: bool = option("Print the reasons too; diagnosis.html holds them anyway.", False),
     draws: Draws,
 ) -> None:
@@ -99,7 +101,7 @@ def command(
     names = diagnosis.outcome.write(output)
     if page:
         names.append(_data.part("exports.formats", "xlsx").corrected_workbook(output).name)
-        names.append(_data.part("reporting.pages", "handout").write_handout(output, title).name)
+        names.append(_data.part("reporting.pages", "handout").write_handout(output, title, heading).name)
         names.append(_data.part("reporting.pages", "diagnosis_page").write_page(output, title).name)
     click.echo(f"{diagnosis.details if details else diagnosis}\n\nWritten to {output}: {', '.join(names)}.")
     if page:

@@ -149,7 +149,10 @@ def reduced_axis(axes: Axes, label: str) -> None:
     """Make the frequency axis logarithmic over many decades, labelled 0.001, 0.1, ..., 1e5."""
     axes.set_xscale("log")
     axes.set_xlabel(label)
-    axes.xaxis.set_major_locator(matplotlib.ticker.LogLocator(numticks=7))
+    figure = axes.get_figure(root=True)
+    assert figure is not None
+    most = max(3, int(figure.get_figwidth() / MM / 14.0))  # labels of 14 mm
+    axes.xaxis.set_major_locator(matplotlib.ticker.LogLocator(numticks=most))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: numbers.plain(value)))
     axes.xaxis.set_minor_locator(NullLocator())
 

@@ -98,7 +98,12 @@ def _curve(frames: dict[str, pd.DataFrame], label: str, quantity: str) -> str:
     for n, ((name, rows), (colour, marker)) in enumerate(
         zip(frames.items(), style.kinds(len(frames)), strict=True)
     ):
-        look: dict[str, Any] = {"marker": marker, "markevery": (n % 5, 10), "markerfacecolor": "white", "label": name}
+        look: dict[str, Any] = {
+            "marker": marker,
+            "markevery": (n % 5, 10),
+            "markerfacecolor": "white",
+            "label": name,
+        }
         panels.line(axes, "frequency_Hz", quantity, rows, colour, **look)
     style.reduced_axis(axes, label)
     panels.quantity_axis(axes, quantity)

@@ -1,136 +1,231 @@
-"""Pages to hand on: the answer with what is to be reported, the grid of AASHTO R 84, and two figures of the study."""
+"""report.pdf, to hand on: what was tested, the moduli with their intervals, pictures, and what was left out and why."""
 
 from __future__ import annotations
 
-import textwrap
+from collections.abc import Iterable, Sequence
+from datetime import UTC, datetime
+from io import BytesIO
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-import numpy as np
+import matplotlib
 import pandas as pd
+from fpdf import FPDF
+from fpdf.fonts import FontFace
 
 from asphalt_nscd.diagnosis.words.brief import rows
-from asphalt_nscd.diagnosis.written import read_diagnosis
+from asphalt_nscd.diagnosis.written import place_name, read_diagnosis, read_residuals
 from asphalt_nscd.files.store import atomic_path
-from asphalt_nscd.reporting.figures import fig_black, fig_master
-from asphalt_nscd.reporting.figures.style import journal
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from asphalt_nscd.files.words import joined
+from asphalt_nscd.measurements.kinds import TEST_TYPES
+from asphalt_nscd.reporting.figures import fig_master, panels, style
+from asphalt_nscd.reporting.figures.save import figure_bytes
+from asphalt_nscd.reporting.pages.diagnosis_page import law, value
+from asphalt_nscd.reporting.pages.style import typeset
+from asphalt_nscd.reporting.settings import Heading
 
 PDF = "report.pdf"
-A4 = (8.27, 11.69)  # inches
-CHARACTERS = 96  # in a line
-LINES = 62  # on the first page
+FONT = "DejaVu"
 SIZE = 9.0  # points
+PALE = (238, 240, 243)
+# Rows of the answer that a client reads; the others tell the laboratory what to do next.
+FINDINGS = ("Data", "Fault", "Possible fault", "Effect", "Possible effect", "Scatter", "Unexplained")
+DOUBTS = ("Leave out", "Check first")
+AT_COMMAND_LINE = ("--", ".csv")  # what no client has
 
 
-def write_handout(folder: Path, title: str) -> Path:
-    """Write report.pdf from diagnosis.json, residuals.csv and reported.csv of a folder.
+class _Report(FPDF):
+    """Pages with the title at their head and their number at their foot."""
 
-    The file holds no time of day, so that the same diagnosis gives the same bytes.
-    """
-    from matplotlib.backends.backend_pdf import PdfPages
+    def __init__(self, title: str, made_by: str) -> None:
+        super().__init__(format="A4")
+        self.title_text, self.made_by = title, made_by
+        folder = Path(matplotlib.get_data_path(), "fonts", "ttf")
+        for look, name in {"": "DejaVuSans", "B": "DejaVuSans-Bold", "I": "DejaVuSans-Oblique"}.items():
+            self.add_font(FONT, look, folder / f"{name}.ttf")
+        self.set_font(FONT, size=SIZE)
+        self.set_margins(20.0, 18.0, 20.0)
+        self.set_auto_page_break(True, 20.0)
+        # Without the time of day, so that the same diagnosis gives the same file.
+        self.set_creation_date(datetime(2000, 1, 1, tzinfo=UTC))
+        self.set_title(title)
+        self.set_creator("asphalt-nscd")
 
-    diagnosis, residuals = [folder / "diagnosis.json"], [folder / "residuals.csv"]
-    content = read_diagnosis(diagnosis)
-    pages = [_answer(content, title), _values(pd.read_csv(folder / "reported.csv"), content)]
-    pages += [drawn.draw(residuals, diagnosis) for drawn in (fig_master, fig_black)]
-    # Without the time of day, so that the same diagnosis gives the same file.
-    said = {"Title": title, "Creator": "asphalt-nscd", "CreationDate": None}
-    with atomic_path(folder / PDF) as path, PdfPages(path, metadata=said) as pdf:
-        for figure in pages:
-            pdf.savefig(figure)
+    def footer(self) -> None:
+        """The programme and the number of the page."""
+        self.set_y(-14.0)
+        self.set_font(FONT, size=7.0)
+        self.cell(0, 4, self.made_by)
+        self.cell(0, 4, f"{self.page_no()} of {{nb}}", align="R")
+        self.set_font(FONT, size=SIZE)
+
+    def heading(self, text: str, size: float = 11.0) -> None:
+        """A heading, never alone at the foot of a page."""
+        if self.get_y() > self.eph - 25.0:
+            self.add_page()
+        self.ln(3.0)
+        self.set_font(FONT, "B", size)
+        self.multi_cell(0, 0.5 * size, text, new_x="LMARGIN", new_y="NEXT")
+        self.set_font(FONT, size=SIZE)
+        self.ln(1.0)
+
+    def text_block(self, text: str) -> None:
+        """A paragraph."""
+        self.multi_cell(0, 4.4, text, new_x="LMARGIN", new_y="NEXT")
+        self.ln(0.8)
+
+    def rows(self, cells: Iterable[Sequence[str]], widths: Sequence[float], **options: Any) -> None:
+        """A table, its first row a heading unless `first_row_as_headings` is False; widths in shares."""
+        look = {
+            "line_height": 4.6,
+            "borders_layout": "HORIZONTAL_LINES",
+            "padding": 0.6,
+            "text_align": "LEFT",
+        }
+        look["headings_style"] = FontFace(emphasis="BOLD", fill_color=PALE)
+        with self.table(col_widths=tuple(widths), **look | options) as table:  # type: ignore[arg-type]
+            for line in cells:
+                table.row(list(line))
+
+    def picture(self, *figures: Any) -> None:
+        """Figures side by side over the width of the page."""
+        width = self.epw / len(figures)
+        pictures = [BytesIO(figure_bytes(figure, "png")) for figure in figures]
+        height = max(width * f.get_figheight() / f.get_figwidth() for f in figures)
+        if self.get_y() + height > self.eph + self.t_margin:
+            self.add_page()
+        top = self.get_y()
+        for n, picture in enumerate(pictures):
+            self.image(picture, x=self.l_margin + n * width, y=top, w=width - 2.0)
+        self.set_y(top + height)
+
+
+def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Path:  # noqa: B008  frozen
+    """Write report.pdf from the files of a diagnosis; `heading` holds what the laboratory states of it."""
+    content = read_diagnosis([folder / "diagnosis.json"])
+    made = content["provenance"]
+    by = f"asphalt-nscd, commit {made['git_commit'][:10]}, tests from {made['measurements']}"
+    pdf = _Report(heading.mix or title, by)
+    pdf.add_page()
+    pdf.heading("Complex modulus of an asphalt mix", 15.0)
+    pdf.rows(_about(content, title, heading), (1.0, 3.0), first_row_as_headings=False)
+    pdf.heading("Result")
+    pdf.set_font(FONT, "B", 10.5)
+    pdf.text_block(value(content["reported"]))
+    pdf.set_font(FONT, size=SIZE)
+    pdf.text_block(
+        "In brackets: 95 % intervals. All values below are of the mix, without the faults that were named."
+    )
+    pdf.picture(*_pictures(folder, content))
+    pdf.heading("|E*| in MPa and phase in ° over temperature and frequency")
+    _grid(pdf, pd.read_csv(folder / "reported.csv"))
+    pdf.heading("What was found")
+    pdf.rows(_findings(content, FINDINGS), (1.0, 4.0), first_row_as_headings=False)
+    pdf.heading("What was left out or is in doubt, and why")
+    _left_out(pdf, pd.read_csv(folder / "corrected.csv", dtype={"specimen": str}, keep_default_na=False))
+    doubts = _findings(content, DOUBTS)
+    if doubts:
+        pdf.rows(doubts, (1.0, 4.0), first_row_as_headings=False)
+    _law(pdf, content)
+    with atomic_path(folder / PDF) as path:
+        pdf.output(str(path))
     return folder / PDF
 
 
-@journal
-def _answer(content: dict[str, Any], title: str) -> Figure:
-    """The answer in words, as the command line gives it, below what standards ask for."""
-    from matplotlib.figure import Figure
+def _about(content: dict[str, Any], title: str, heading: Heading) -> list[tuple[str, str]]:
+    """Names and values of what was tested, by whom and how; the campaign stands for a mix without a name."""
+    reading = content["reading"]
+    kind = TEST_TYPES.get(reading["test_type"], "not stated")
+    said = {name: getattr(heading, name) for name in ("project", "mix", "operator", "date", "standard")}
+    said["mix"] = said["mix"] or title
+    temperatures = ", ".join(f"{at:g}" for at in reading["isotherms_C"])
+    tested = {
+        "kind of test": kind[:1].upper() + kind[1:],
+        "specimens": ", ".join(reading["specimens"]),
+        "temperatures": typeset(f"{temperatures} degC"),
+        "tests": str(content["tests"] + sum(not one["used"] for one in content["suspect_tests"])),
+    }
+    return [(name.capitalize(), text) for name, text in (said | tested).items() if text]
 
-    figure = Figure(figsize=A4)
-    lines = [*textwrap.wrap(title, CHARACTERS), "", *_asked_for(content["reported"]), ""]
-    for label, sentences in rows(content):
-        for n, sentence in enumerate(sentences):
-            # 16 characters at the left are for the label.
-            wrapped = textwrap.wrap(sentence, CHARACTERS - 16) or [""]
-            lines += [f"{label if n == k == 0 else '':<16}{line}" for k, line in enumerate(wrapped)]
-    if len(lines) > LINES:
-        lines = [*lines[: LINES - 2], "", "More in diagnosis.html."]
-    made = content["provenance"]
-    commit = made["git_commit"][:10]
-    lines += [
-        "",
-        f"asphalt-nscd, commit {commit}, tests from {made['measurements']}; +- is the 95 % interval.",
+
+@style.journal
+def _pictures(folder: Path, content: dict[str, Any]) -> list[Any]:
+    """Master curves of |E*| and phase."""
+    tests = read_residuals([folder / "residuals.csv"])
+    curve = [path for path in [folder / "master_curve.csv"] if path.is_file()]
+    master = fig_master.master(tests, tests, content, curve)
+    figures = []
+    for quantity in panels.QUANTITIES:
+        figure, axes = style.new_figure(86.0, 74.0)
+        master.panel(axes, quantity)
+        style.isotherm_legends(figure, master.keys("test"), master.isotherms)
+        figures.append(figure)
+    return figures
+
+
+def _grid(pdf: _Report, table: pd.DataFrame) -> None:
+    """Moduli with intervals at the conditions of AASHTO R 84; grey where no test was made near."""
+    table = table.iloc[1:]  # the first stands above
+    temperatures = table["temperature_C"].unique()
+    cells = {(row.temperature_C, row.frequency_Hz): row for row in table.itertuples()}
+    head = ["Hz", *(place_name(at) for at in temperatures)]
+    grey = FontFace(color=(150, 150, 150), size_pt=7.0)
+    with pdf.table(
+        col_widths=(0.6, *[1.4] * len(temperatures)),
+        text_align="CENTER",
+        line_height=3.6,
+        borders_layout="HORIZONTAL_LINES",
+        headings_style=FontFace(emphasis="BOLD", fill_color=PALE),
+    ) as made:
+        made.row(head)
+        pdf.set_font(FONT, size=7.0)
+        for frequency in table["frequency_Hz"].unique():
+            line = made.row([f"{frequency:g}"])
+            for at in temperatures:
+                row = cells[at, frequency]
+                line.cell(_interval(row), style=None if row.within_the_tests else grey)
+    pdf.set_font(FONT, size=SIZE)
+    if not table["within_the_tests"].all():
+        pdf.text_block("Grey: extrapolated, no test was made near it.")
+
+
+def _interval(row: Any) -> str:
+    if pd.isna(row.E_MPa):
+        return "not known"
+    modulus = f"{row.E_MPa:.0f}\n{row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}"
+    return typeset(
+        f"{modulus}\n{row.phase_deg:.1f} deg ({row.phase_low_deg:.1f} to {row.phase_high_deg:.1f})"
+    )
+
+
+def _findings(content: dict[str, Any], wanted: Sequence[str]) -> list[tuple[str, str]]:
+    """Of the answer the rows with a label of `wanted`, as they are printed."""
+    kept = [
+        (label, [one for one in said if not any(word in one for word in AT_COMMAND_LINE)])
+        for label, said in rows(content)
+        if label in wanted
     ]
-    for n, line in enumerate(lines):
-        figure.text(
-            0.08,
-            0.95 - n * 0.0142,
-            line,
-            family="monospace",
-            size=SIZE if n else SIZE + 2,
-            weight="bold" if n == 0 else None,
-        )
-    return figure
+    return [(label, typeset(" ".join(said)).replace("law.json", "the law")) for label, said in kept if said]
 
 
-def _asked_for(value: dict[str, Any]) -> list[str]:
-    there = "" if value["within_the_tests"] else "; extrapolated, no test was made near it"
-    return [
-        f"|E*|(15 degC, 10 Hz) = {value['E_MPa']:.0f} MPa, 95 % interval {value['E_low_MPa']:.0f} to "
-        f"{value['E_high_MPa']:.0f} MPa{there}",
-        f"phase(15 degC, 10 Hz) = {value['phase_deg']:.1f} deg, 95 % interval {value['phase_low_deg']:.1f} to "
-        f"{value['phase_high_deg']:.1f} deg (of the mix, after the corrections)",
+def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
+    """Tests that were not used or are doubtful, and why."""
+    told = table[(table["status"] != "used") | (table["doubts"] != "")]
+    if told.empty:
+        pdf.text_block(f"No test was left out: all {len(table)} were used.")
+        return
+    groups = told.groupby(["specimen", "temperature_C", "status", "doubts"], sort=False)["frequency_Hz"]
+    lines = [
+        (specimen, place_name(at), joined([f"{f:g}" for f in hertz]), status, typeset(doubts))
+        for (specimen, at, status, doubts), hertz in groups
     ]
+    pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.0, 1.0, 1.2, 1.0, 4.0))
 
 
-def law_in_words(content: dict[str, Any]) -> str:
-    """Parameters of law.json with their 95 % intervals, as a sentence; empty where there is no law."""
-    if "law_parameters" not in content:
-        return ""
-    (title,) = (one["title"] for one in content["laws"] if one["taken"])
-    said = ", ".join(
-        f"{key} = {one['value']:.4g}"
-        + (" ({:.4g} to {:.4g})".format(*one["interval_95"]) if one["interval_95"] else "")
-        for key, one in content["law_parameters"].items()
-    )
-    return f"law.json, {title}, parameters and 95 % intervals: {said}."
-
-
-@journal
-def _values(table: pd.DataFrame, content: dict[str, Any]) -> Figure:
-    """|E*| and phase over temperature and frequency, those beyond the tests in grey; parameters of the law."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=A4)
-    axes = figure.add_axes((0.11, 0.55, 0.85, 0.38))
-    axes.set_axis_off()
-    axes.set_title(
-        "|E*| [MPa] and phase [°] of the mix (AASHTO R 84); grey: extrapolated", fontsize=9, loc="left"
-    )
-    # Its first row, at 15 degC and 10 Hz, stands on the page before.
-    grid = table.iloc[1:]
-    temperatures, frequencies = grid["temperature_C"].unique(), grid["frequency_Hz"].unique()
-    texts, colours = [], []
-    for f in frequencies:
-        of = grid[grid["frequency_Hz"] == f]
-        texts.append([f"{e:.0f} +- {np.sqrt(high / low) - 1:.0%}; {p:.1f}" for e, low, high, p in
-                      zip(of["E_MPa"], of["E_low_MPa"], of["E_high_MPa"], of["phase_deg"], strict=True)])  # fmt: skip
-        colours.append(["black" if there else "0.6" for there in of["within_the_tests"]])
-    made = axes.table(
-        texts,
-        rowLabels=[f"{f:g} Hz" for f in frequencies],
-        colLabels=[f"{t:g} °C" for t in temperatures],
-        loc="upper center",
-    )
-    made.auto_set_font_size(False)
-    made.set_fontsize(7)
-    for (row, column), cell in made.get_celld().items():
-        cell.set_linewidth(0.3)
-        if row and column >= 0:
-            cell.get_text().set_color(colours[row - 1][column])
-    for n, line in enumerate(textwrap.wrap(law_in_words(content), 120)):
-        figure.text(0.11, 0.77 - 0.013 * n, line, size=7)
-    return figure
+def _law(pdf: _Report, content: dict[str, Any]) -> None:
+    found = law(content)
+    if found is None:
+        return
+    pdf.heading(f"Law of the mix: {found['title']}")
+    head = ("Parameter", "Value", "95 % interval", "Unit", "Determined by these tests")
+    pdf.rows([head, *found["parameters"]], (1.2, 1.0, 1.6, 1.0, 1.6))

@@ -1,0 +1,79 @@
+"""report.pdf is opened: its pages say who tested what, the moduli with their intervals, what was left out and why."""
+
+from __future__ import annotations
+
+import re
+
+import pandas as pd
+import pytest
+from click.testing import CliRunner
+from pypdf import PdfReader
+
+from asphalt_nscd.cli.diagnose import command
+from asphalt_nscd.reporting.pages.handout import write_handout
+from asphalt_nscd.reporting.settings import Heading
+
+pytestmark = pytest.mark.slow
+STATED = {"project": "Ring road, lot 3", "mix": "AC 16", "operator": "A. Tester", "date": "28 November 2026"}
+STATED |= {"standard": "AASHTO T 378"}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Of the tutorial's exports, in which one test is left out."""
+    out = tmp_path_factory.mktemp("report")
+    options = [part for name, text in STATED.items() for part in (f"--{name}", text)]
+    told = CliRunner().invoke(
+        command, ["data/tutorial/exports", "--draws", "500", "--output", str(out), *options]
+    )
+    assert told.exit_code == 0, told.output
+    return out
+
+
+@pytest.fixture(scope="module")
+def pages(folder):
+    return PdfReader(folder / "report.pdf").pages
+
+
+@pytest.fixture(scope="module")
+def text(pages):
+    return re.sub(r"\s+", " ", " ".join(page.extract_text() for page in pages))
+
+
+def test_the_head_says_what_the_laboratory_stated(folder, pages, text):
+    first = pages[0].extract_text()
+    for name, said in STATED.items():
+        assert f"{name.capitalize()} {said}" in re.sub(r"\s+", " ", first)
+    assert all(f"{n} of {len(pages)}" in page.extract_text() for n, page in enumerate(pages, 1))
+    assert len(pages) <= 4 and len(pages[0].images) == 2
+
+
+def test_moduli_stand_with_their_intervals(folder, text):
+    table = pd.read_csv(folder / "reported.csv")
+    first = table.iloc[0]
+    assert f"= {first.E_MPa:.0f} MPa ({first.E_low_MPa:.0f} to {first.E_high_MPa:.0f})" in text
+    inside = table[table["within_the_tests"]]
+    assert len(inside) > 10
+    for row in inside.iloc[1:].itertuples():
+        assert f"{row.E_MPa:.0f} {row.E_low_MPa:.0f} to {row.E_high_MPa:.0f} {row.phase_deg:.1f}°" in text
+
+
+def test_what_was_left_out_stands_with_its_reason(folder, text):
+    table = pd.read_csv(folder / "corrected.csv", keep_default_na=False)
+    row = table[table["status"] == "left out"].iloc[0]
+    assert f"{row.specimen} {row.temperature_C:g} °C {row.frequency_Hz:g} left out" in text
+    assert row.doubts.partition(" ")[0] in text
+
+
+def test_nothing_of_the_terminal_stands_in_it(pages, text):
+    assert not re.search(r"degC|\+-|--[a-z]|\.csv|\.json", text)
+    fonts = {
+        str(font.get_object()["/BaseFont"]) for page in pages for font in page["/Resources"]["/Font"].values()
+    }
+    assert fonts and not any("Mono" in name for name in fonts)
+
+
+def test_the_same_diagnosis_gives_the_same_bytes(folder):
+    before = (folder / "report.pdf").read_bytes()
+    write_handout(folder, "Diagnosis of exports", Heading(**STATED))
+    assert (folder / "report.pdf").read_bytes() == before
