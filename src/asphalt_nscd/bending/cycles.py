@@ -17,7 +17,7 @@ from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 from asphalt_nscd.nscd.stepping.compliant import CompliantStepper
 from asphalt_nscd.nscd.stepping.condensed import CondensedState
-from asphalt_nscd.nscd.stepping.energy import diagonal_form, form_of_springs, power_of_dashpots
+from asphalt_nscd.nscd.stepping.energy import diagonal_form
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
 from asphalt_nscd.nscd.stepping.scheme import History, Scheme
 from asphalt_nscd.nscd.stepping.skeleton import Skeleton
@@ -136,9 +136,9 @@ def run_cycles(
 
     def held(now: History) -> float:
         """In motion, films and contacts [J]; what friction took counts as held."""
-        stress = now.values["sigma"], now.values["kelvin"]
+        stress = now.values["sigma"], now.values["memory"]
         moving = inertia(now.values["velocity"], now.values["velocity"])
-        return 0.5 * (moving + form_of_springs(law, strain, stress, stress)) + stepper.grip.held(skeleton)
+        return 0.5 * (moving + law.stored(strain, stress, stress)) + stepper.grip.held(skeleton)
 
     angle = programme.angles()
     forces = force * programme.stress(angle)
@@ -152,9 +152,9 @@ def run_cycles(
         earlier, now = now, History.of(state, 0.0)
         displacement[n] = -state.displacement[head]
         # rates of the scheme, of second order as the motion is
-        rate = (now.values["kelvin"] - base.values["kelvin"]) / stepper.dt
+        rate = (now.values["memory"] - base.values["memory"]) / stepper.dt
         work -= time_step * forces[n] * state.velocity[head]
-        dashpots += time_step * power_of_dashpots(law, strain, state.sigma, rate)
+        dashpots += time_step * law.dissipated(strain, state.sigma, state.memory, rate)
         if n == angle.size - 1 - programme.samples:
             work, dashpots, began = 0.0, 0.0, held(now)
     read = programme.phasor(forces, angle) / programme.phasor(displacement, angle)
