@@ -41,7 +41,9 @@ def workbook(path, **sheets):
 def plain(table):
     """Columns as lists: texts, and numbers to ten digits, None where a cell is empty."""
     return {
-        name: [one if isinstance(one, str) else None if one != one else float(f"{one:.10g}") for one in values]
+        name: [
+            one if isinstance(one, str) else None if one != one else float(f"{one:.10g}") for one in values
+        ]
         for name, values in table.columns.items()
     }
 

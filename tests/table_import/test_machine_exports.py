@@ -93,7 +93,10 @@ def test_summary_export_is_read_as_it_is(tmp_path):
     campaign = read(tmp_path, EXPORT)
     require_plain(campaign)
     assert moduli(campaign) == ([9100, 8000, 5000], [12.5, 13.25, 19])
-    assert columns(campaign, "load_standard_error_percent", "microstrain") == [[3.2, 0.9, None], [104, 101, 97]]
+    assert columns(campaign, "load_standard_error_percent", "microstrain") == [
+        [3.2, 0.9, None],
+        [104, 101, 97],
+    ]
     assert "ignored: 'Average confining pressure (kPa)'" in " ".join(campaign.notes)
     assert read(tmp_path, EXPORT, test_type="bending").test_type == "bending"
 

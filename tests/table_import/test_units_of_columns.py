@@ -83,4 +83,6 @@ def test_units_of_modulus_are_their_definitions(tmp_path, unit, pascals):
     given = 8e9 / pascals
     table = [["specimen", "temperature_C", "frequency_Hz", f"E ({unit})", "phase_deg"]]
     table += [["A", "20", str(f), f"{given * (1 + 0.01 * f):.10g}", "25"] for f in (1, 3, 10)]
-    assert read(tmp_path, table).table.numbers("E_MPa").tolist() == pytest.approx([8080.0, 8240.0, 8800.0], rel=1e-6)
+    assert read(tmp_path, table).table.numbers("E_MPa").tolist() == pytest.approx(
+        [8080.0, 8240.0, 8800.0], rel=1e-6
+    )

@@ -181,7 +181,7 @@ def read_csv(path: str | Path) -> Table:
                 f"line {line}: {len(fields)} fields under {len(header)} column names",
                 "separate with commas and write decimals with a point",
             )
-    columns = {name: [fields[i] for _, fields in rows[1:]] for i, name in enumerate(header)}
+    columns: dict[str, Values] = {name: [row[i] for _, row in rows[1:]] for i, name in enumerate(header)}
     return Table(path, columns, [line for line, _ in rows[1:]])
 
 

@@ -17,11 +17,12 @@ from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.kinds import UNKNOWN
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
 from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, read_sheets
+from asphalt_nscd.table_import.computed import computed_specimens
 from asphalt_nscd.table_import.contested import refuse_mislabelled
 from asphalt_nscd.table_import.layouts import Layout, layout_of
 from asphalt_nscd.table_import.quantities import QUALITY
 from asphalt_nscd.table_import.schemes import schemes_in
-from asphalt_nscd.table_import.several_files import Part, drop_copies, drop_repeated, unify_spelling
+from asphalt_nscd.table_import.several_files import Part, drop_copies, drop_repeated, rows_of, unify_spelling
 from asphalt_nscd.table_import.skipped_files import SkippedFile, common_mend, listed, refused
 from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
@@ -70,7 +71,7 @@ def read_campaign(
             f"{_called(paths)}: the files hold {' and '.join(forms)}; give those of one form together."
         )
     kind = test_type or _told_kind(paths, parts, forms[0], notes)
-    table = _joined(paths, parts, notes)
+    table = _measured(_joined(paths, parts, notes), notes)
     _require_unit(paths, parts, table)
     specimens = list(dict.fromkeys(table.text("specimen")))
     notes.append(
@@ -268,6 +269,16 @@ def _joined(paths: Sequence[Path], parts: list[Part], notes: list[str]) -> Table
             columns[name] = np.concatenate([table.numbers_or_nan(name) for table in tables])
     files = [part.read.table.path for part in parts for _ in part.read.table.lines]
     return Table(Path(_called(paths)), columns, [line for table in tables for line in table.lines], files)
+
+
+def _measured(table: Table, notes: list[str]) -> Table:
+    """The table without specimens that equal a mean or a deviation of the others."""
+    if not (computed := computed_specimens(table)):
+        return table
+    notes.append(
+        f"left out, means and deviations of the other specimens by their numbers: {', '.join(computed)}"
+    )
+    return rows_of(table, [row for row, name in enumerate(table.text("specimen")) if name not in computed])
 
 
 def _called(paths: Sequence[Path]) -> str:

@@ -55,7 +55,10 @@ def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Pl
             if re.fullmatch(re.escape(name) + r" \([^)]*\)", header)
         ]
         if len(places) != 1:
-            raise InputError(f"{cells.path}: no column {name!r}; its columns are {', '.join(cells.header)}.")
+            several = (
+                f"{len(places)} columns are called {name!r}; rename one" if places else f"no column {name!r}"
+            )
+            raise InputError(f"{cells.path}: {several}; its columns are {', '.join(cells.header)}.")
         if kind := derived(cells.header[places[0]]):
             raise InputError(
                 f"{cells.path}: {_named(wanted)}column {name!r} holds "

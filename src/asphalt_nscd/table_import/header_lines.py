@@ -153,11 +153,20 @@ def _names(cells: list[str]) -> bool:
     return len(found) > 1 and not any(NUMBER.fullmatch(cell) for cell in cells)
 
 
+def _results(cells: list[str]) -> list[str]:
+    """The cells of a line that name results; none of a line that holds a number."""
+    return (
+        [] if any(map(NUMBER.fullmatch, cells)) else [cell for cell in cells if read_heading(cell).is_result]
+    )
+
+
 def _stack(rows: list[Row]) -> _Stack | None:
     """The lines that name columns; None where no line names quantities."""
     at = next((n for n, (_, cells) in enumerate(rows[:MOST_ABOVE]) if _names(cells)), None)
     if at is None:
         return None
+    if not _results(rows[at][1]) and at + 1 < len(rows) and len(_results(rows[at + 1][1])) > 1:
+        at += 1  # temperature and frequency go down from the line above
     names = rows[at][1]
     first, last = at, at + 1
     below: list[list[str]] = []
@@ -243,7 +252,7 @@ def _labels_above(cells: list[str], names: list[str]) -> list[dict[str, str]] | 
             out.append(out[-1] if out else {})
         elif found := condition(cell):
             out.append(found)
-        elif column and not axis and column.unit in _AXES:
+        elif column and not axis and column.unit in _AXES and below:
             axis = _AXES[column.unit]  # `Temperature (°C)` in front of 4, 20, 37
             out.append({})
         elif axis and NUMBER.fullmatch(cell):

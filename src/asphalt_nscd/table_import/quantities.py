@@ -91,7 +91,8 @@ def recognise(header: str, known: dict = MEASURED) -> Meaning | None:
     if foreign:
         quantity, unit = foreign
         allowed = ", ".join(known[quantity][1])
-        raise InputError(f"column {header!r}: {unit!r} is not a unit of {quantity}; give one of {allowed}.")
+        mend = f"give one of {allowed}" if allowed else "write what stands in brackets without them"
+        raise InputError(f"column {header!r}: {unit!r} is not a unit of {quantity}; {mend}.")
     return None
 
 

@@ -25,7 +25,7 @@ def told_by_sheet(cells: Cells, name: str, chosen: Mapping[str, str]) -> Cells:
     """The table with columns for specimen and temperature from the name of its sheet, if it has none."""
     has = held(cells) | {column.quantity for wanted in chosen if (column := recognise(wanted))}
     bare, known = _TEMPERATURE.fullmatch(name), specimen_of(name, None)
-    temperature = bare[1] if bare else known.temperature
+    temperature = bare[1].replace("−", "-") if bare else known.temperature
     told: dict[str, str] = {}
     if has.isdisjoint({"temperature_C", "nominal_temperature_C"}):
         if temperature:

@@ -299,10 +299,10 @@ def _word(cells: Cells, line: int, name: str, text: str) -> str:
     """Names go into tables that are opened again in spreadsheets, where =, +, - or @ would begin a formula."""
     if name == "origin" and text not in ORIGINS:
         raise InputError(f"{cells.path}, line {line}: origin {text!r} is not one of {', '.join(ORIGINS)}.")
-    if not re.fullmatch(r"[^\W_][\w .,:/()+#°&'-]{0,63}", text):
+    if not re.fullmatch(r"[^\W_][\w .,:/()+#°&%'-]{0,63}", text):
         raise InputError(
             f"{cells.path}, line {line}: {name} {text!r} must begin with a letter or digit and hold at most 64 "
-            "letters, digits, spaces and . , : / ( ) + # - _ ° & '; rename it."
+            "letters, digits, spaces and . , : / ( ) + # - _ ° & % '; rename it."
         )
     return text
 
