@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -38,6 +39,16 @@ SAVE_AS = "save it as CSV or XLSX."
 TABLES = (".csv", ".tsv", *TEXT_FILES, ".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
 MOST_FILES = 500
 _MEASURED = ("temperature_C", "nominal_temperature_C", "E_MPa", "phase_deg")
+
+
+class _Wanted(NamedTuple):
+    """What the user named: the only sheet, columns by what they hold, the only mix."""
+
+    sheet: str | None
+    columns: Mapping[str, str]
+    mix: str | None
+
+
 IN_THE_MENU = "choose it in the menu"
 
 
@@ -46,17 +57,22 @@ def read_campaign(
     sheet: str | None = None,
     chosen: Mapping[str, str] | None = None,
     test_type: str | None = None,
+    mix: str | None = None,
 ) -> tuple[Campaign, str]:
-    """The campaign that files and folders hold together, and its form; `test_type` None takes what the files say."""
+    """The campaign that files and folders hold together, and its form; `test_type` None takes what the files say.
+
+    `chosen` names columns by what they hold; `mix` is the only one to read of a column of mixes.
+    """
+    wanted = _Wanted(sheet, chosen or {}, mix)
     notes: list[str] = []
     parts: list[Part] = []
     without_tests: list[str] = []
     for path in paths:
         if path.is_dir():
-            found, said = _folder(path, notes, sheet, chosen or {})
+            found, said = _folder(path, notes, wanted)
             without_tests += [said] if said else []
         else:
-            found = _file(path, notes, sheet, chosen or {})
+            found = _file(path, notes, wanted)
         parts += found
     # Exports first: a table that was made from them is then the copy, and their quality columns stay.
     parts = drop_copies(sorted(parts, key=lambda part: not part.block.exported), notes)
@@ -151,18 +167,18 @@ def _require_one_mix(parts: Sequence[Part]) -> None:
         )
 
 
-def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, str]) -> list[Part]:
+def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:
     """Tests of a file; of several sheets each that holds tests, the others named in the notes."""
     require_readable(path, "check the path")
-    sheets = read_sheets(path, sheet)
+    sheets = read_sheets(path, wanted.sheet)
     if layout := layout_of(sheets):
-        return _parts(path, layout, sheets, chosen)
+        return _parts(path, layout, sheets, wanted)
     parts: list[Part] = []
     skipped: list[SkippedFile] = []
     for one in sheets:
         try:
             layout = layout_of([one])
-            parts += _parts(path, layout, [one], chosen) if layout else []
+            parts += _parts(path, layout, [one], wanted) if layout else []
         except InputError as error:
             # It was meant to hold tests: passed over with a note, a test was lost and nobody saw it.
             if not isinstance(error, NotTests) and _names_tests(one.rows):
@@ -180,13 +196,12 @@ def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, 
     return parts
 
 
-def _parts(path: Path, layout: Layout, sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Part]:
-    return [Part(path, understand(block.cells, chosen), block) for block in layout.read(sheets, chosen)]
+def _parts(path: Path, layout: Layout, sheets: Sequence[Sheet], wanted: _Wanted) -> list[Part]:
+    blocks = layout.read(sheets, wanted.columns)
+    return [Part(path, understand(block.cells, wanted.columns, wanted.mix), block) for block in blocks]
 
 
-def _folder(
-    folder: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, str]
-) -> tuple[list[Part], str]:
+def _folder(folder: Path, notes: list[str], wanted: _Wanted) -> tuple[list[Part], str]:
     """Tests of the files in a folder, and a sentence on those that hold none, which the notes name too."""
     # `~$NAME` is what Excel keeps beside an open workbook.
     inside = [path for path in folder.iterdir() if not path.name.startswith((".", "~$"))]
@@ -201,14 +216,14 @@ def _folder(
         if path.is_dir():
             others.append(SkippedFile(path.name, "a folder; name it too if it belongs to the campaign"))
         elif path.suffix.lower() not in TABLES:
-            table = _holds_tests(path, sheet)
+            table = _holds_tests(path, wanted.sheet)
             known = SkippedFile(path.name, "neither text nor workbook", SAVE_AS)
             (empty if table else others).append(known)
         else:
             try:
-                parts += _file(path, notes, sheet, chosen)
+                parts += _file(path, notes, wanted)
             except InputError as error:
-                if not isinstance(error, NotTests) and _meant(path, sheet):
+                if not isinstance(error, NotTests) and _meant(path, wanted.sheet):
                     raise
                 text = isinstance(error, NotTests) and path.suffix.lower() in TEXT_FILES
                 (others if text else empty).append(refused(path.name, error, path))

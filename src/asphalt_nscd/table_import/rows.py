@@ -9,6 +9,7 @@ from dataclasses import replace
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.table_import.cells import Cells, Row
+from asphalt_nscd.table_import.header_lines import told_above
 from asphalt_nscd.table_import.words import ABSENT, OF_SPECIMENS, pattern
 
 # Columns in which merged cells leave all but the first cell empty.
@@ -37,6 +38,13 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
         why = _NAMES if row == cells.header else _rejection(row, keys, results)
         why = why or (_MEAN if means and of_other else None)
         (kept if why is None else left.setdefault(why, [])).append((line, row))
+    for line, row in left.get(_REMARK, []):
+        # Of a second table, which would be taken for more of the first.
+        if told_above([(line, row)])[0]:
+            raise InputError(
+                f"{cells.path}, line {line}: {' '.join(_filled(row))[:60]!r} stands among the tests; write it into a "
+                "column of its own, or the names of the columns below it."
+            )
     if not kept:
         # A program that writes formulas stores no values, and openpyxl gives empty cells.
         names = " and ".join(repr(cells.header[place]) for place in results)

@@ -13,7 +13,9 @@ from asphalt_nscd.table_import.names import specimen_of
 from asphalt_nscd.table_import.quantities import recognise
 from asphalt_nscd.table_import.words import COMPUTED_SHEET
 
-_TEMPERATURE = re.compile(r"(?:T\s*=?\s*)?([-−+]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\.?\s*)?C", re.IGNORECASE)
+_TEMPERATURE = re.compile(
+    r"(?:T\s*=?\s*)?([-−+]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg\.?\s*)?([CF])", re.IGNORECASE
+)
 
 
 def is_computed_sheet(name: str, cells: Cells) -> bool:
@@ -29,7 +31,7 @@ def told_by_sheet(cells: Cells, name: str, chosen: Mapping[str, str]) -> Cells:
     told: dict[str, str] = {}
     if has.isdisjoint({"temperature_C", "nominal_temperature_C"}):
         if temperature:
-            told["T (°C)"] = temperature
+            told[f"T (°{bare[2].upper() if bare else 'C'})"] = temperature
     elif temperature and not bare and not _all_at(cells, temperature):
         temperature = None  # a part of the specimen's own name
     if "specimen" not in has and not bare:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from asphalt_nscd.files.csvinput import Table, Values
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import choice
 from asphalt_nscd.measurements.reduction import FORMS, OF_RECORDS, ORIGINS, is_reduced
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, chosen_columns, column_cue, name_with_unit, one_of
@@ -76,8 +77,8 @@ class ParsedTable:
         return next((self.read[name].unit for name in ("E_MPa", "E1_MPa") if name in self.read), "")
 
 
-def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedTable:
-    """Tests of a user's table; `chosen` names columns by what they hold, `{"E_GPa": "Steifigkeit"}`."""
+def understand(cells: Cells, chosen: Mapping[str, str] | None = None, mix: str | None = None) -> ParsedTable:
+    """Tests of a user's table, of one mix; `chosen` names columns by what they hold, `{"E_GPa": "Steifigkeit"}`."""
     if not chosen and (ours := _own(cells)):
         return ours
     cells = melted(attach_units(cells))
@@ -85,15 +86,16 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedT
     form, results = _form(cells, columns)
     places = {name: columns[name][0][0] for name in (*CARRIED, *KEYS, *results) if name in columns}
     cells = tests_in(cells, places, results)
-    notes = list(cells.notes)
+    agreed: list[str] = []
     kept, copies = {}, set()
     for name, several in columns.items():
         if name in (*TEXTS, "mix", *KEYS, *results):
             kept[name], told, same = one_of(cells, name, several)
-            notes += told
+            agreed += told
             copies |= same
     kept |= _further(columns, form)
-    mix = _only_mix(cells, kept)
+    cells, of_mix = _of_one_mix(cells, kept, mix)
+    notes = [*cells.notes, *agreed]
     # Over all columns: 1,234 alone can be read in two ways, and another column settles it.
     numeric = [place for name, (place, _) in kept.items() if name not in (*TEXTS, "mix")]
     mark = decimal_mark(
@@ -115,7 +117,7 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedT
     results = FORMS["moduli" if form == "modulus" else form]
     order = ("specimen", "replicate", *KEYS, *results, "origin", *FURTHER, *MAY_BE_ABSENT)
     wanted = {name: values[name] for name in order if name in values}
-    return ParsedTable(Table(cells.path, wanted, [line for line, _ in cells.rows]), form, notes, read, mix)
+    return ParsedTable(Table(cells.path, wanted, [line for line, _ in cells.rows]), form, notes, read, of_mix)
 
 
 def _own(cells: Cells) -> ParsedTable | None:
@@ -176,20 +178,30 @@ def names_force_or_modulus(cell: str) -> bool:
     return column is not None and column.quantity in ("E_MPa", "F0_N") and column.unit is not None
 
 
-def _only_mix(cells: Cells, kept: Mapping[str, Place]) -> str:
-    """The name of the only mix in the table."""
+def _of_one_mix(cells: Cells, kept: Mapping[str, Place], wanted: str | None) -> tuple[Cells, str]:
+    """The rows of the mix wanted, or of the only one in the table, and its name."""
     if "mix" not in kept:
-        return ""
+        return cells, ""
     place, _ = kept["mix"]
     mixes = list(dict.fromkeys(row[place] for _, row in cells.rows))
+    named = ", ".join(mixes[:5]) + (", ..." if len(mixes) > 5 else "")
+    if wanted in mixes:
+        notes = [*cells.notes, f"mix {wanted} alone, of {named}"] if len(mixes) > 1 else cells.notes
+        return replace(cells, rows=[one for one in cells.rows if one[1][place] == wanted], notes=notes), str(
+            wanted
+        )
+    if wanted is not None:
+        raise NotTests(
+            f"{cells.path}: no mix {wanted!r} in column {cells.header[place]!r}; give one of {named}."
+        )
     if len(mixes) > 1:
-        named = ", ".join(mixes[:5]) + (", ..." if len(mixes) > 5 else "")
+        way = choice(f'give one with --mix "{mixes[0]}"', "save the rows of each mix as a file of its own")
         raise InputError(
             f"{cells.path}: column {cells.header[place]!r} holds {len(mixes)} mixes ({named}), and a diagnosis is of "
-            "one mix: save the rows of each mix as a file of its own and give one of them. If these are specimens of "
-            f"one mix, say so {column_cue('specimen', cells.header[place])}."
+            f"one mix: {way}. If these are specimens of one mix, say so "
+            f"{column_cue('specimen', cells.header[place])}."
         )
-    return mixes[0]
+    return cells, mixes[0]
 
 
 def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequence[str]]:

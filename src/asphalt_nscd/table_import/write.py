@@ -55,6 +55,7 @@ class StudyOptions:
     small: bool = False
     sheet: str | None = None
     columns: Mapping[str, str] | None = None
+    mix: str | None = None
 
 
 def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) -> tuple[Path, list[str]]:
@@ -67,7 +68,9 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
     _require_free(name, config, folder)
     if options.small and options.grading is not None:
         raise InputError("--small takes spheres of its own; leave out --grading or --small.")
-    campaign, form = read_campaign(measurements, options.sheet, options.columns, options.measured_in)
+    campaign, form = read_campaign(
+        measurements, options.sheet, options.columns, options.measured_in, options.mix
+    )
     source = ", ".join(map(str, measurements))
     direct = campaign.test_type == "tension-compression"
     read, notes = study_table(campaign, form)
