@@ -126,7 +126,9 @@ def test_which_date_is_later(first, second, after):
 
 def test_several_mixes_in_one_table_or_in_several(tmp_path):
     table = [["Mix", *HEADER], *(["M1", *row] for row in ROWS), *(["M2", *row] for row in ROWS)]
-    refused(read, tmp_path, table, names=["t.csv", "'Mix'", "M1, M2"])
+    refused(read, tmp_path, table, names=["t.csv", "'Mix'", "M1, M2", '--only-mix "M1"'])
+    assert plain(read_campaign([tmp_path / "t.csv"], mix="M2")[0].table) == as_is(tmp_path / "..")
+    refused(read_campaign, [tmp_path / "t.csv"], mix="M3", names=["'M3'", "M1, M2"])
     read(tmp_path, table[:9])
     read(tmp_path, [["Mix", *HEADER], *(["M2", row[0] + "2", *row[1:4], 21] for row in ROWS)], "u.csv")
     refused(read_campaign, [tmp_path], names=["M1 in t.csv, M2 in u.csv"])

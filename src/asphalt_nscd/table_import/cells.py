@@ -122,6 +122,14 @@ def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
 def _held(rows: list[Row]) -> list[Row]:
     """Rows that hold something, and are no remark."""
     rows = [(line, _trimmed(cells)) for line, cells in rows]
+    # A table may begin in the second column, below a title in the first one.
+    places = [[n for n, cell in enumerate(cells) if cell] for _, cells in rows]
+    first = min((filled[0] for filled in places if len(filled) > 1), default=0)
+    rows = [
+        (line, cells[min(first, *filled) :])
+        for (line, cells), filled in zip(rows, places, strict=True)
+        if filled
+    ]
     return [(line, cells) for line, cells in rows if cells and not _REMARK.match(_first(cells))]
 
 

@@ -195,7 +195,9 @@ def _of_one_mix(cells: Cells, kept: Mapping[str, Place], wanted: str | None) -> 
             f"{cells.path}: no mix {wanted!r} in column {cells.header[place]!r}; give one of {named}."
         )
     if len(mixes) > 1:
-        way = choice(f'give one with --mix "{mixes[0]}"', "save the rows of each mix as a file of its own")
+        way = choice(
+            f'give one with --only-mix "{mixes[0]}"', "save the rows of each mix as a file of its own"
+        )
         raise InputError(
             f"{cells.path}: column {cells.header[place]!r} holds {len(mixes)} mixes ({named}), and a diagnosis is of "
             f"one mix: {way}. If these are specimens of one mix, say so "
@@ -277,11 +279,9 @@ def _column(cells: Cells, name: str, place: Place, mark: str) -> Column:
     if not meaning.converts:
         return Column(name, "", values, heading)
     ours = values * meaning.factor + meaning.offset
-    if (
-        name == "phase_deg"
-        and meaning.unit == "rad"
-        and (wide := (np.abs(ours) > 90.0) & (np.abs(values) <= 90.0)).any()
-    ):
+    wide = (np.abs(ours) > 90.0) & (np.abs(values) <= 90.0)
+    # A few may be CVs, or are refused where they are used.
+    if name == "phase_deg" and meaning.unit == "rad" and wide.mean() > 0.5:
         row = int(np.argmax(wide))
         raise InputError(
             f"{cells.path}, line {cells.rows[row][0]}: a phase of {values[row]:g} rad is {ours[row]:.0f} deg, more "
