@@ -48,7 +48,7 @@ rule layouts:
     benchmark:
         "results/layouts/benchmarks/layouts.tsv"
     params:
-        trial=f"env PYTHONPATH={CLONE / 'trials'} {sys.executable} -m layouts",
+        trial=f"env PYTHONPATH={CLONE / 'trials'}:$PYTHONPATH {sys.executable} -m layouts",
         number=200,
         seed=7_000_000,  # none that was looked at while the reader was written
     message:
