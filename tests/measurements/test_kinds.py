@@ -9,7 +9,7 @@ import yaml
 
 from asphalt_nscd.measurements.geometry import USUAL
 from asphalt_nscd.measurements.kinds import BENDING, TEST_TYPES, UNKNOWN
-from asphalt_nscd.table_import import schemes
+from asphalt_nscd.table_import.words import WORDS
 
 ROOT = Path(__file__).parents[2]
 STUDY = "workflow/schemas/study.schema.yaml"
@@ -23,7 +23,7 @@ def properties(schema: str, *keys: str) -> dict:
 
 
 def test_what_can_be_diagnosed():
-    assert set(schemes._SCHEMES) == set(TEST_TYPES)
+    assert set(WORDS["scheme"]) == set(TEST_TYPES)
     for section in ("diagnosis", "tables_beside"):
         assert properties(STUDY, section, "measured_in")["enum"] == list(TEST_TYPES)
     written = (ROOT / "src/asphalt_nscd/diagnosis/diagnosis.schema.yaml").read_text(encoding="utf-8")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from test_slips import FREQUENCIES, campaign
 
-from asphalt_nscd.measurements.signs import wrong_sign
+from asphalt_nscd.measurements.signs import negative_phases, wrong_sign
 
 SWEEP = "specimen == 'B' and temperature_C == 21.0"
 
@@ -68,3 +68,12 @@ def test_a_delay_of_the_force_is_no_wrong_sign(delay):
 )
 def test_other_negative_phases_are_left_to_the_diagnosis(phases):
     assert wrong_sign(with_phases(phases)) is None
+
+
+def test_phases_below_zero_are_told_where_nothing_says_that_their_sign_is_wrong():
+    assert negative_phases(campaign()) == ""
+    table = campaign()
+    table.loc[[3, 7], "phase_deg"] = [-3.0, -1.0]
+    told = negative_phases(table)
+    assert told.startswith(f"2 of {len(table)} phases are below zero, at worst -3 deg")
+    assert f"{table['frequency_Hz'][3]:g} Hz" in told

@@ -38,8 +38,18 @@ def workbook(path, **sheets):
     return path
 
 
+def plain(table):
+    """Columns as lists: texts, and numbers to ten digits, None where a cell is empty."""
+    return {
+        name: [
+            one if isinstance(one, str) else None if one != one else float(f"{one:.10g}") for one in values
+        ]
+        for name, values in table.columns.items()
+    }
+
+
 def columns(campaign, *names):
-    return [campaign.table.columns[name] for name in names]
+    return [plain(campaign.table)[name] for name in names]
 
 
 def said(campaign, *parts):
@@ -56,7 +66,7 @@ def refused(call, *given, names=(), **more):
 
 
 def as_is(folder):
-    return read(folder, [HEADER, *ROWS]).table.columns
+    return plain(read(folder, [HEADER, *ROWS]).table)
 
 
 EXPORT = """\

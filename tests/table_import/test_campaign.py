@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from table_import.slips import columns, exports, refused, said
+from table_import.slips import columns, exports, plain, refused, said
 
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.reduction import reduce_table
@@ -47,7 +47,7 @@ def test_folder_is_one_table_whose_errors_name_the_file(tmp_path):
     assert specimens(campaign) == ["Mix-A"] * 2 + ["Mix-B"] * 2 + ["Mix-A"] * 2 + ["Mix-B"] * 2
     assert str(campaign.table.error(3, "bad")) == f"{tmp_path / 'b.csv'}, line 5: bad"
     named, form = read_campaign(list(campaign.files))
-    assert named.table.columns == campaign.table.columns
+    assert plain(named.table) == plain(campaign.table)
     assert (named.files, form) == (campaign.files, "moduli")
 
 
@@ -55,14 +55,13 @@ def test_exports_and_tables_come_together(tmp_path):
     campaign = exports(tmp_path, a=export("A", 4), t=TABLE)
     assert columns(campaign, "specimen", "phase_uniformity_deg", "nominal_temperature_C") == [
         ["Mix-A", "Mix-A", "A", "B"],
-        ["0.9", "0.4", "", ""],
-        ["4", "4", "", ""],
+        [0.9, 0.4, None, None],
+        [4, 4, None, None],
     ]
 
 
 def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     (tmp_path / "b.csv.bak").write_text(export("B", 4))
-    (tmp_path / "c.xls").write_bytes(b"\xd0\xcf\x11\xe0")
     (tmp_path / "scan.pdf").write_bytes(b"%PDF")
     (tmp_path / "notes.txt").write_text(NOTES)
     (tmp_path / ".hidden.csv").write_text("rubbish")
@@ -74,7 +73,7 @@ def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     for name in ("sieves.csv", "scan.pdf", "old", "empty.csv", "notes.txt", "notes.csv"):
         assert said(campaign, f"skipped {name} (")
     assert not said(campaign, "hidden")
-    for name in ("empty.csv", "sieves.csv", "b.csv.bak", "c.xls"):
+    for name in ("empty.csv", "sieves.csv", "b.csv.bak"):
         assert name in " ".join(campaign.without_tests)
 
 
@@ -97,7 +96,7 @@ def test_one_reason_of_many_files_is_said_once(tmp_path):
         (export("B", 4).replace("8700", "87x0"), ["b.csv, line 5", "Dynamic modulus (MPa)", "87x0"]),
         (TABLE.replace("5000", "many"), ["b.csv, line 2", "E (MPa)", "many"]),
         ("specimen;T (°C);E (GPa) at 10 Hz;phi (°) at 10 Hz\nB;4;9;20;7\n", ["b.csv, line 2", "5 fields"]),
-        ("PK rubbish", ["b.csv", "XLSX"]),
+        ("PK rubbish", ["b.csv", "workbook"]),
         (export("A", 4, 1.2), ["a.csv and b.csv", "Mix-A", "4 degC, 25 Hz"]),
         (PEAKS, ["moduli and peaks"]),
     ],
@@ -140,7 +139,7 @@ def test_the_same_export_twice_counts_once(tmp_path, kept, copy, specimen, names
 def test_repeated_test_is_taken_instead_of_the_first_and_said(tmp_path, names):
     repeated = export("A", 4, 1.2, name="Mix-A-4C-Repeated")
     campaign = exports(tmp_path, **{names[0]: export("A", 4), names[1]: repeated}, c=export("A", 20))
-    assert columns(campaign, "E_MPa") == [["10440", "9120", "7100", "6000"]]
+    assert columns(campaign, "E_MPa") == [[10440, 9120, 7100, 6000]]
     assert said(campaign, f"{names[1]}.csv is taken instead of {names[0]}.csv")
 
 
@@ -151,10 +150,11 @@ def test_what_reduce_wrote_is_taken_as_it_is(tmp_path):
     geometry = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
     reduce_table(tmp_path / "m.csv", geometry, tmp_path / "reduced.csv")
     campaign, _ = read_campaign([tmp_path / "reduced.csv"])
-    assert campaign.table.columns == read_csv(tmp_path / "reduced.csv").columns
+    for name in ("E_MPa", "phase_deg", "temperature_C"):
+        assert (campaign.table.numbers(name) == read_csv(tmp_path / "reduced.csv").numbers(name)).all()
     # Every digit of a plain table stays, too.
-    plain, _ = read_campaign([tmp_path / "m.csv"])
-    assert plain.table.columns["E_MPa"] == read_csv(tmp_path / "m.csv").columns["E_MPa"]
+    as_given, _ = read_campaign([tmp_path / "m.csv"])
+    assert (as_given.table.numbers("E_MPa") == read_csv(tmp_path / "m.csv").numbers("E_MPa")).all()
 
 
 def test_files_with_numbers_for_names(tmp_path):

@@ -144,7 +144,7 @@ def test_tests_outside_the_full_grid_are_left_out_and_said():
         (rows(frequencies=[10]), ["10 degC"]),
         ([(1, 15, 1, 9000.0, 0.3), (1, 15, 10, 9500.0, 0.3)], ["MPa"]),
         ([(1, 15, 1, 0.009, 0.3), (1, 15, 10, 0.0095, 0.3)], ["softer"]),
-        ([(1, 15, 1, 9.0, 20), (1, 15, 10, 9.5, 20)], ["line 2", "20,00000 rad", "1146 deg"]),
+        ([(1, 15, 1, 9.0, 20), (1, 15, 10, 9.5, 20)], ["line 2", "20 rad", "1146 deg"]),
     ],
 )
 def test_what_cannot_be_meant_is_refused_and_leaves_nothing(folder, tests, names):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from table_import.slips import refused
+from table_import.slips import plain, refused
 
 from asphalt_nscd.table_import.campaign import read_campaign
 
@@ -30,14 +30,14 @@ def saved(folder, file, header, specimen, measured):
 
 def read(folder, file, header="4", specimen="Mix-7", measured=None):
     campaign = saved(folder, file, header, specimen, measured)
-    columns = campaign.table.columns
+    columns = plain(campaign.table)
     assert columns["specimen"] == ["Mix-7"] * 3
     return columns.get("nominal_temperature_C", columns["temperature_C"]), " ".join(campaign.notes)
 
 
 def test_name_and_header_that_agree_are_not_mentioned(tmp_path):
     target, notes = read(tmp_path, "Mix-7_4C_Sum.csv", specimen="Mix-7-4C")
-    assert target == ["4"] * 3
+    assert target == [4] * 3
     assert "the name" not in notes
 
 
@@ -47,7 +47,7 @@ def test_name_and_header_that_agree_are_not_mentioned(tmp_path):
 @pytest.mark.parametrize(("measured", "taken"), [(4, "header"), (21, "name")])
 def test_the_readings_decide_between_name_and_header(tmp_path, file, specimen, measured, taken):
     target, notes = read(tmp_path, file, specimen=specimen, measured=measured)
-    assert target == [str(measured)] * 3
+    assert target == [measured] * 3
     assert "says 21 degC and the header 4 degC" in notes
     assert f"{measured}.1 degC was measured, so the {taken} is taken" in notes
 
@@ -89,7 +89,7 @@ def test_a_temperature_that_nothing_decides_is_refused(tmp_path, file, header, s
     ],
 )  # fmt: skip
 def test_the_temperature_that_is_taken(tmp_path, file, header, specimen, measured, target):
-    assert read(tmp_path, file, header, specimen, measured)[0] == [target] * 3
+    assert read(tmp_path, file, header, specimen, measured)[0] == [float(target)] * 3
 
 
 def test_a_hyphen_before_the_temperature_is_said_to_separate_where_it_may_be_a_minus(tmp_path):
@@ -99,7 +99,7 @@ def test_a_hyphen_before_the_temperature_is_said_to_separate_where_it_may_be_a_m
 
 def test_readings_stand_where_only_a_name_contradicts_them(tmp_path):
     target, notes = read(tmp_path, "Mix-7-21C.csv", header=None, measured=4)
-    assert target == ["4.1", "4.0", "4.1"]
+    assert target == [4.1, 4.0, 4.1]
     assert "'Mix-7-21C' says 21 degC; 4.1 degC was measured" in notes
 
 
@@ -107,13 +107,13 @@ def test_the_file_of_several_temperatures_may_be_called_after_one(tmp_path):
     parts = [EXPORT.format(header=t, specimen="Mix-7", readings=READINGS.format(t)) for t in (4, 21)]
     (tmp_path / "Mix-7_4C.csv").write_text("".join(parts), encoding="utf-8")
     campaign, _ = read_campaign([tmp_path / "Mix-7_4C.csv"])
-    assert campaign.table.columns["nominal_temperature_C"] == ["4"] * 3 + ["21"] * 3
+    assert plain(campaign.table)["nominal_temperature_C"] == [4] * 3 + [21] * 3
     assert "says" not in " ".join(campaign.notes)
 
 
 def test_the_grade_of_a_binder_is_no_temperature(tmp_path):
     campaign = saved(tmp_path, "PG64-28C.csv", "4", "PG64-28C", None)
-    assert campaign.table.columns["temperature_C"] == ["4"] * 3
+    assert campaign.table.numbers("temperature_C").tolist() == [4] * 3
 
 
 @pytest.mark.parametrize(("unit", "celsius"), [("Celsius", 4), ("degrees F", -15.56), ("K", -269.15)])
@@ -122,6 +122,6 @@ def test_units_of_the_target(tmp_path, unit, celsius):
     text = text.replace("temperature,4", f"temperature ({unit}),4")
     (tmp_path / "e.csv").write_text(text, "utf-8")
     campaign, _ = read_campaign([tmp_path / "e.csv"])
-    assert [float(t) for t in campaign.table.columns["temperature_C"]] == pytest.approx([celsius] * 3)
+    assert campaign.table.numbers("temperature_C").tolist() == pytest.approx([celsius] * 3)
     (tmp_path / "e.csv").write_text(text.replace(unit, "bar"), "utf-8")
     refused(read_campaign, [tmp_path / "e.csv"], names=["e.csv", "'bar'"])

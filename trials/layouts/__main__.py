@@ -1,33 +1,63 @@
-"""Laboratory layouts, as many as told (40): how many are read, how many refused, and how many read wrongly.
+"""Laboratory layouts: how many are read, how many refused, and how many read wrongly. In a folder, as tables:
 
-PYTHONPATH=trials .venv/bin/python -m layouts [NUMBER] [SEED] [FOLDER]
+PYTHONPATH=trials .venv/bin/python -m layouts [NUMBER] [SEED] [--output FOLDER]
 """
 
 from __future__ import annotations
 
+import argparse
 import sys
 import tempfile
 from pathlib import Path
 
-from layouts.generator import draw
+import pandas as pd
+
+from asphalt_nscd.files.store import provenance, write_json, write_table
+from layouts.generator import Laboratory, draw
 from layouts.score import outcome
 
+LEAST = 0.95  # share that must be read
 
-def main(number: int, first: int, folder: Path) -> int:
-    counts = {"read": 0, "refused": 0, "wrong": 0}
+
+def tried(number: int, first: int, folder: Path) -> pd.DataFrame:
+    """One row for each file: family, language, ending, whether it was read, refused or wrong, and the sentence."""
+    rows = []
     for seed in range(first, first + number):
-        _, path, tests = draw(seed, folder)
-        result, said = outcome(path, tests)
-        counts[result] += 1
-        if result != "read":
-            print(f"{result}: {path.name}: {said}")
-    print(f"{number} files: " + ", ".join(f"{count} {name}" for name, count in counts.items()))
-    return int(counts["wrong"] > 0 or counts["read"] < 0.95 * number)
+        family, path, tests = draw(seed, folder)
+        result, why = outcome(path, tests)
+        rows.append(
+            (path.name, family, Laboratory(seed).language, path.suffix, result, why.replace(f"{folder}/", ""))
+        )
+        if why:
+            print(f"{result}: {rows[-1][0]}: {rows[-1][-1]}")
+    return pd.DataFrame(rows, columns=["file", "family", "language", "ending", "result", "sentence"])
+
+
+def summary(files: pd.DataFrame) -> pd.DataFrame:
+    """Counts of each family, and of all."""
+    kinds = pd.CategoricalDtype(["read", "refused", "wrong"])
+    counts = pd.crosstab(files["family"], files["result"].astype(kinds), dropna=False)
+    counts.loc["all"] = counts.sum()
+    counts.insert(0, "files", counts.sum(axis=1))
+    return counts.reset_index().rename_axis(columns=None)
+
+
+def main(number: int, first: int, output: Path | None) -> int:
+    with tempfile.TemporaryDirectory() as folder:
+        files = tried(number, first, Path(folder))
+    counts = summary(files)
+    print(counts.to_string(index=False))
+    if output is not None:
+        write_table(output / "layouts.csv", files)
+        write_table(output / "summary.csv", counts)
+        write_json(output / "provenance.json", provenance())
+    return int((files["result"] == "wrong").any() or (files["result"] == "read").mean() < LEAST)
 
 
 if __name__ == "__main__":
-    numbers = [int(text) for text in sys.argv[1:3]] + [40, 0][len(sys.argv[1:3]) :]
-    with tempfile.TemporaryDirectory() as temporary:
-        where = Path(sys.argv[3] if len(sys.argv) > 3 else temporary)
-        where.mkdir(parents=True, exist_ok=True)
-        sys.exit(main(numbers[0], numbers[1], where))
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("number", type=int, nargs="?", default=36)
+    parser.add_argument("seed", type=int, nargs="?", default=0)
+    parser.add_argument("--output", type=Path)
+    given = parser.parse_args()
+    sys.exit(main(given.number, given.seed, given.output))

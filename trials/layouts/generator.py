@@ -1,43 +1,58 @@
-"""Workbooks and text files as laboratories lay them out, with the tests that they hold. Knows nothing of the reader."""
+"""Files as laboratories lay them out, 18 families in six languages, and their tests. Knows nothing of the reader."""
 
 from __future__ import annotations
 
+import csv
+import zipfile
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 from itertools import product
 from pathlib import Path
 from typing import Any
+from xml.sax.saxutils import escape
 
 import numpy as np
 import openpyxl
-from openpyxl.utils import get_column_letter
 
-Grid = list[list[Any]]
-
-MODULUS = {
-    "MPa": (
-        1.0,
-        0,
-        (
-            "|E*| (MPa)",
-            "E* [MPa]",
-            "Dynamic modulus (MPa)",
-            "Module complexe |E*| (MPa)",
-            "Steifigkeit (MPa)",
-        ),
-    ),
-    "GPa": (1e-3, 3, ("|E*| (GPa)", "E* [GPa]")),
-    "ksi": (1 / 6.894757293, 1, ("|E*| (ksi)", "Dynamic Modulus, ksi")),
-    "psi": (1e3 / 6.894757293, 0, ("E* (psi)", "Dynamic Modulus (psi)")),
-}
-PHASE = {
-    "deg": (1.0, 2, ("Phase angle (°)", "phi (deg)", "δ (°)", "Angle de phase φ (°)", "Phasenwinkel (Grad)")),
-    "rad": (np.pi / 180.0, 5, ("Phase (rad)", "delta (rad)")),
-}
-FREQUENCY = ("Frequency (Hz)", "f (Hz)", "Freq. (Hz)", "Fréquence (Hz)", "Frequenz (Hz)")
-CELSIUS = ("Temperature (°C)", "T (°C)", "T° (°C)", "Temp (°C)", "Température (°C)", "Temperatur (°C)")
-FAHRENHEIT = ("Temperature (°F)", "Temp, °F", "T (°F)")
-LABELS = ("Spec. {n}", "Specimen {n}", "{letter}", "Core {n}", "Éprouvette {n}", "S{n}", "K1{n}")
+Rows = list[list[Any]]
+Sheets = dict[str, Rows]
+UNITS = {"MPa": (1.0, 0), "GPa": (1e-3, 3), "ksi": (1 / 6.894757293, 1), "N/mm²": (1.0, 0)}
+# Modulus, phase, frequency, temperature, specimen; a mean, a deviation and a CV; a mix.
+LANGUAGES = {
+    "en": (
+        ("Dynamic modulus", "|E*|", "E*", "Complex modulus", "Stiffness"), ("Phase angle", "phi", "δ", "Phase lag"),
+        ("Frequency", "Freq.", "f"), ("Temperature", "Temp.", "T", "Test temperature"), ("Specimen", "Sample", "Core"),
+        ("Mean", "Average", "Ave", "Avg."), ("Std. dev.", "SD", "St.Dev"), ("CV", "COV"), "Mix"),
+    "fr": (
+        ("Module complexe", "Module |E*|", "Norme du module", "Rigidité"), ("Angle de phase", "Déphasage", "φ"),
+        ("Fréquence", "Fréq.", "f"), ("Température", "Temp.", "T", "Température d'essai"),
+        ("Éprouvette", "Échantillon"), ("Moyenne", "Moy.", "Moy"), ("Écart-type", "Ecart type", "σ"),
+        ("CV", "Coeff. var."), "Enrobé"),
+    "de": (
+        ("Steifigkeit", "Steifigkeitsmodul", "Komplexer Modul", "E-Modul"),
+        ("Phasenwinkel", "Phasenverschiebung", "φ"), ("Frequenz", "Prüffrequenz", "f"),
+        ("Temperatur", "Prüftemperatur", "T"), ("Prüfkörper", "Probekörper", "Probe"),
+        ("Mittelwert", "MW", "Mittel", "x quer"), ("Stabw.", "s", "Standardabweichung"),
+        ("VK", "Variationskoeffizient"), "Mischgut"),
+    "es": (
+        ("Módulo dinámico", "Módulo complejo", "Rigidez", "|E*|"), ("Ángulo de fase", "Desfase", "φ"),
+        ("Frecuencia", "Frec.", "f"), ("Temperatura", "Temp.", "T"), ("Probeta", "Muestra"),
+        ("Promedio", "Media", "Prom."), ("Desv. est.", "Desviación"), ("CV", "Coef. var."), "Mezcla"),
+    "it": (
+        ("Modulo complesso", "Modulo dinamico", "Rigidezza", "E*"), ("Angolo di fase", "Sfasamento", "δ"),
+        ("Frequenza", "Freq.", "f"), ("Temperatura", "T"), ("Provino", "Campione"),
+        ("Media", "Valore medio"), ("Dev. st.", "Scarto"), ("CV", "Coeff. var."), "Miscela"),
+    "pl": (
+        ("Moduł sztywności", "Moduł zespolony", "|E*|"), ("Kąt przesunięcia fazowego", "Kąt fazowy", "φ"),
+        ("Częstotliwość", "f"), ("Temperatura", "T", "Temp."), ("Próbka", "Nr próbki"),
+        ("Średnia", "Wartość średnia", "Śr."), ("Odch. std.", "Odchylenie"), ("Wsp. zm.", "CV"), "Mieszanka"),
+}  # fmt: skip
+SCHEMES = (
+    ([4.0, 20.0, 40.0], [25.0, 10.0, 5.0, 1.0, 0.5, 0.1]),
+    ([-10.0, 4.0, 21.0, 37.0, 54.0], [25.0, 10.0, 5.0, 1.0, 0.5, 0.1]),
+    ([-10.0, 0.0, 10.0, 15.0, 20.0, 30.0], [1.0, 3.0, 10.0, 25.0, 30.0, 40.0]),
+    ([0.0, 10.0, 20.0, 30.0], [0.1, 0.3, 1.0, 3.0, 10.0, 20.0]),
+)
 
 
 @dataclass(frozen=True)
@@ -49,386 +64,424 @@ class Tests:
 
     @property
     def specimens(self) -> list[str]:
+        """In the order of the file."""
         return list(dict.fromkeys(s for s, _, _ in self.values))
 
-    @property
-    def temperatures(self) -> list[float]:
-        return list(dict.fromkeys(t for _, t, _ in self.values))
 
-    @property
-    def frequencies(self) -> list[float]:
-        return list(dict.fromkeys(f for _, _, f in self.values))
+class Laboratory:
+    """How one laboratory writes: its words, units and marks, and the tests that it has."""
 
+    def __init__(self, seed: int) -> None:
+        """Draw words, units and tests."""
+        self.random = np.random.default_rng(seed)
+        pick = self.pick
+        self.language = pick(list(LANGUAGES))
+        *words, mix = LANGUAGES[self.language]
+        modulus, phase, frequency, temperature, self.specimen, *self.statistics = map(pick, words)
+        self.mix = mix
+        self.unit = pick(["MPa", "MPa", "MPa", "GPa", "N/mm²", "ksi" if self.language == "en" else "GPa"])
+        self.fahrenheit = self.unit == "ksi" and self.chance(0.7)
+        self.radians = self.chance(0.1)
+        left, right = pick([" (", ")"], [" [", "]"], [", ", ""])
+        degree = "rad" if self.radians else pick("°", "deg" if self.language == "en" else "°")
+        celsius = "°F" if self.fahrenheit else "°C"
+        units = {"e": self.unit, "p": degree, "f": "Hz", "t": celsius}
+        names = {"e": modulus, "p": phase, "f": frequency, "t": temperature}
+        self.bare, self.units = names, units
+        self.name = {key: f"{name}{left}{units[key]}{right}" for key, name in names.items()}
+        self.tests = self._tests(int(self.random.integers(2, 5)))
 
-@dataclass(frozen=True)
-class Style:
-    """How a laboratory writes: units, words, marks."""
+    def pick(self, *options: Any) -> Any:
+        """One of several options, or of those in the only one."""
+        among = options[0] if len(options) == 1 else options
+        return among[int(self.random.integers(len(among)))]
 
-    random: np.random.Generator
-    modulus: str = "MPa"
-    phase: str = "deg"
-    fahrenheit: bool = False
-    words: dict[str, str] = field(default_factory=dict)
+    def chance(self, share: float) -> bool:
+        """True in this share of the cases."""
+        return bool(self.random.random() < share)
+
+    def _tests(self, specimens: int) -> Tests:
+        """Tests of a Huet-Sayegh mix with scatter between and within specimens."""
+        self.temperatures, frequencies = self.pick(SCHEMES)
+        self.frequencies = frequencies[::-1] if self.chance(0.3) else frequencies
+        label = self.pick("{n}", f"{self.specimen} {{n}}", "{letter}", "K1{n}", "B-0{n}", "2{n}/18")
+        names = [label.format(n=n, letter="ABCDE"[n - 1]) for n in range(1, specimens + 1)]
+        level, values = self.random.uniform(26e3, 38e3), {}
+        for name in names:
+            own = self.random.normal(0.0, 0.06)
+            for t, f in product(self.temperatures, self.frequencies):
+                shift = np.exp(2.303 * -9.0 * (t - 15.0) / (110.0 + t - 15.0))
+                reduced = 1j * 2.0 * np.pi * f * 0.15 * shift
+                star = 60.0 + (level - 60.0) / (1.0 + 2.1 * reduced**-0.2 + reduced**-0.57)
+                size = abs(star) * np.exp(own + self.random.normal(0.0, 0.01))
+                angle = max(np.degrees(np.angle(star)) + self.random.normal(0.0, 0.2), 0.5)
+                values[name, t, f] = float(size), float(angle)
+        return Tests(values)
 
     def e(self, value: float) -> float:
-        factor, digits, _ = MODULUS[self.modulus]
+        """A modulus [MPa] as it is written."""
+        factor, digits = UNITS[self.unit]
         return round(factor * value, digits) if digits else int(round(factor * value))
 
     def p(self, value: float) -> float:
-        factor, digits, _ = PHASE[self.phase]
-        return round(factor * value, digits)
+        """A phase [deg] as it is written."""
+        return round(np.radians(value), 4) if self.radians else round(value, 1)
 
     def t(self, value: float) -> float:
+        """A temperature [degC] as it is written."""
         shown = round(1.8 * value + 32.0, 1) if self.fahrenheit else value
         return int(shown) if shown == int(shown) else shown
 
-    @property
-    def degree(self) -> str:
-        return "F" if self.fahrenheit else "C"
+    def both(self, s: str, t: float, f: float) -> list[float]:
+        """Modulus and phase of a test as they are written."""
+        e, p = self.tests.values[s, t, f]
+        return [self.e(e), self.p(p)]
 
-
-def draw_tests(random: np.random.Generator, specimens: int, with_phase: bool = True) -> Tests:
-    """Tests of a Huet-Sayegh mix with scatter, in the digits that laboratories write."""
-    schemes = (
-        ([4.0, 20.0, 35.0], [25.0, 10.0, 5.0, 1.0, 0.5, 0.1]),
-        ([-10.0, 4.0, 21.0, 37.0, 54.0], [0.1, 0.5, 1.0, 5.0, 10.0, 25.0]),
-        ([-10.0, 0.0, 10.0, 15.0, 20.0, 30.0], [1.0, 3.0, 10.0, 25.0, 30.0, 40.0]),
-        ([0.0, 10.0, 20.0, 30.0], [0.3, 1.0, 3.0, 10.0]),
-    )
-    temperatures, frequencies = schemes[random.integers(len(schemes))]
-    template = LABELS[random.integers(len(LABELS))]
-    names = [template.format(n=n, letter="ABCDEF"[n - 1]) for n in range(1, specimens + 1)]
-    level, values = random.uniform(28e3, 38e3), {}
-    for name in names:
-        own = random.normal(0.0, 0.05)
-        for t, f in product(temperatures, frequencies):
-            shift = np.exp(2.303 * -9.0 * (t - 15.0) / (110.0 + t - 15.0))
-            reduced = 1j * 2.0 * np.pi * f * 0.15 * shift
-            star = 50.0 + (level - 50.0) / (1.0 + 2.1 * reduced**-0.2 + reduced**-0.57)
-            modulus = abs(star) * np.exp(own + random.normal(0.0, 0.01))
-            phase = np.degrees(np.angle(star)) + random.normal(0.0, 0.15)
-            values[name, t, f] = float(modulus), max(float(phase), 0.3)
-    return Tests(values, with_phase)
-
-
-def _pick(style: Style, what: str, options: tuple[str, ...]) -> str:
-    """One of several ways to write, the same throughout a file."""
-    return style.words.setdefault(what, options[style.random.integers(len(options))])
-
-
-def _modulus(style: Style) -> str:
-    return _pick(style, "E", MODULUS[style.modulus][2])
-
-
-def _phase(style: Style) -> str:
-    return _pick(style, "phase", PHASE[style.phase][2])
-
-
-def _frequency(style: Style) -> str:
-    return _pick(style, "f", FREQUENCY)
-
-
-def _temperature(style: Style) -> str:
-    return _pick(style, "T", FAHRENHEIT if style.fahrenheit else CELSIUS)
-
-
-def _rows(tests: Tests, style: Style, merged: bool = False) -> list[tuple[Any, Any, float, float]]:
-    """Temperature and frequency as written, and as meant; merged: the temperature only where it changes."""
-    out = []
-    for t in tests.temperatures:
-        for n, f in enumerate(tests.frequencies):
-            out.append((None if merged and n else style.t(t), f, t, f))
-    return out
-
-
-def _name_and_unit(heading: str, between: str) -> str:
-    """`|E*| (MPa)` with something in front of its unit."""
-    stem, bracket, unit = heading.partition(" (") if " (" in heading else heading.partition(" [")
-    return f"{stem}{between}{bracket}{unit}" if bracket else f"{heading}{between}"
-
-
-def replicates_below(tests: Tests, style: Style) -> dict[str, Grid]:
-    """|E*| and phase merged over a column for each specimen."""
-    names = tests.specimens
-    blank = [None] * (len(names) - 1)
-    head = [_temperature(style), _frequency(style), _modulus(style), *blank, _phase(style), *blank]
-    grid: Grid = [head, [None, None, *names, *names]]
-    if style.random.random() < 0.3:  # means beside the specimens
-        head[2 + len(names) : 2 + len(names)] = [None]
-        grid[1][2 + len(names) : 2 + len(names)] = ["Mean"]
-        grid[0].append(None)
-        grid[1].append("Mean")
-    with_means = len(grid[1]) > 2 + 2 * len(names)
-    for t_shown, f_shown, t, f in _rows(tests, style, merged=style.random.random() < 0.5):
-        both = [tests.values[s, t, f] for s in names]
-        row = [t_shown, f_shown, *(style.e(e) for e, _ in both)]
-        row += [style.e(float(np.mean([e for e, _ in both])))] if with_means else []
-        row += [style.p(p) for _, p in both]
-        row += [style.p(float(np.mean([p for _, p in both])))] if with_means else []
-        grid.append(row)
-    return {"Results": grid}
-
-
-def specimens_above(tests: Tests, style: Style) -> dict[str, Grid]:
-    """A specimen merged over its |E*| and phase."""
-    names = tests.specimens
-    grid: Grid = [
-        [None, None, *(cell for s in names for cell in (s, None))],
-        [_temperature(style), _frequency(style), *[_modulus(style), _phase(style)] * len(names)],
-    ]
-    for t_shown, f_shown, t, f in _rows(tests, style, merged=True):
-        both = [tests.values[s, t, f] for s in names]
-        grid.append([t_shown, f_shown, *(cell for e, p in both for cell in (style.e(e), style.p(p)))])
-    return {"E star": grid}
-
-
-def flat(tests: Tests, style: Style) -> dict[str, Grid]:
-    """`E* 1 (MPa)`: the number of the specimen in each name."""
-    numbers = range(1, len(tests.specimens) + 1)
-    gap = (" ", "_", "")[style.random.integers(3)] if _phase(style)[0] != "δ" else " "
-    tests_named = {str(n): s for n, s in zip(numbers, tests.specimens, strict=True)}
-    e = [_name_and_unit(_modulus(style), f"{gap}{n}") for n in numbers]
-    p = [_name_and_unit(_phase(style), f"{gap}{n}") for n in numbers]
-    grid: Grid = [[_temperature(style), _frequency(style), *e, *p]]
-    for t_shown, f_shown, t, f in _rows(tests, style):
-        both = [tests.values[s, t, f] for s in tests_named.values()]
-        grid.append([t_shown, f_shown, *(style.e(e) for e, _ in both), *(style.p(p) for _, p in both)])
-    return {"Sheet1": grid}
-
-
-def conditions_in_names(tests: Tests, style: Style) -> dict[str, Grid]:
-    """`E* at 4C (MPa)`: a column for each temperature."""
-    links = (" at {}{}", " @ {}°{}", " {} °{}", " T={}°{}")
-    link = _pick(style, "link", links)
-    at = [link.format(style.t(t), style.degree) for t in tests.temperatures]
-    head = ["Specimen", _frequency(style)]
-    head += [_name_and_unit(_modulus(style), one) for one in at] + [
-        _name_and_unit(_phase(style), one) for one in at
-    ]
-    grid: Grid = [head]
-    for s, f in product(tests.specimens, tests.frequencies):
-        both = [tests.values[s, t, f] for t in tests.temperatures]
-        grid.append([s, f, *(style.e(e) for e, _ in both), *(style.p(p) for _, p in both)])
-    return {"Results": grid}
-
-
-def _matrix(
-    tests: Tests, style: Style, specimen: str, which: int, corner: str | None, across: str = "f"
-) -> Grid:
-    """One quantity of one specimen over temperature and frequency."""
-    show = style.e if which == 0 else style.p
-    if across == "f":
-        head: Grid = [[corner, *tests.frequencies]]
-        return head + [
-            [style.t(t), *(show(tests.values[specimen, t, f][which]) for f in tests.frequencies)]
-            for t in tests.temperatures
+    def grid(self, merged: bool = False) -> list[tuple[Any, float, float]]:
+        """Temperature as it is shown, temperature and frequency of each condition; merged: shown once."""
+        return [
+            (None if merged and n else self.t(t), t, f)
+            for t in self.temperatures
+            for n, f in enumerate(self.frequencies)
         ]
-    head = [[corner, *(style.t(t) for t in tests.temperatures)]]
-    return head + [
-        [f, *(show(tests.values[specimen, t, f][which]) for t in tests.temperatures)]
-        for f in tests.frequencies
+
+    def computed(self, which: int, t: float, f: float, kinds: int) -> list[float]:
+        """Mean, deviation and CV of the numbers written, the first so many."""
+        values = [self.both(s, t, f)[which] for s in self.tests.specimens]
+        mean, deviation = float(np.mean(values)), float(np.std(values, ddof=1))
+        show = (self.e(mean / UNITS[self.unit][0]), self.p(np.degrees(mean) if self.radians else mean))[which]
+        return [
+            show,
+            round(deviation, 4 if self.radians or UNITS[self.unit][1] else 1),
+            round(100 * deviation / mean, 1),
+        ][:kinds]
+
+
+def long(lab: Laboratory) -> Sheets:
+    """A row for each test, with columns beside that say other things."""
+    more = lab.chance(0.5)
+    rows: Rows = [
+        [lab.specimen, *(lab.name[k] for k in "tfep"), *(["Air voids (%)", "Operator"] if more else [])]
     ]
+    for (s, t, f), _ in lab.tests.values.items():
+        rows.append([s, lab.t(t), f, *lab.both(s, t, f), *([5.2, "me"] if more else [])])
+    return {"Data": rows}
 
 
-def _corner(style: Style, across: str) -> tuple[Grid, str | None]:
-    """Lines above a matrix and its corner, which say what stands across and what down."""
-    over, down = (
-        (_frequency(style), _temperature(style))
-        if across == "f"
-        else (_temperature(style), _frequency(style))
-    )
-    kind = style.words.setdefault("corner", ("above", "both")[style.random.integers(2)])
-    if kind == "above":
-        return [[None, over]], down
-    return [], f"{down} \\ {over}"
+def specimens_over_pairs(lab: Laboratory) -> Sheets:
+    """A specimen over its modulus and phase; temperature and frequency merged down from the first line."""
+    names = lab.tests.specimens
+    first = [lab.name["t"], lab.name["f"], *(cell for s in names for cell in (s, None))]
+    second = [None, None, *[lab.name["e"], lab.name["p"]] * len(names)]
+    if lab.chance(0.5):
+        first, second = [None, None, *first[2:]], [*first[:2], *second[2:]]
+    merged = lab.chance(0.5)
+    rows = [[shown, f, *(c for s in names for c in lab.both(s, t, f))] for shown, t, f in lab.grid(merged)]
+    return {"E": [first, second, *rows]}
 
 
-def matrices_below(tests: Tests, style: Style) -> dict[str, Grid]:
-    """Temperature by frequency, |E*| above and the phase below, one specimen after the other."""
-    across = _pick(style, "across", ("f", "T"))
-    grid: Grid = []
-    for s in tests.specimens:
-        grid.append(["Specimen", s] if len(tests.specimens) > 1 else ["Project", "RD 7, lot 2"])
-        for which, title in enumerate(
-            (_modulus(style), _phase(style)) if tests.with_phase else (_modulus(style),)
-        ):
-            above, corner = _corner(style, across)
-            grid += [[title], *above, *_matrix(tests, style, s, which, corner, across), [None]]
-    return {"Master curve": grid}
+def quantities_over_specimens(lab: Laboratory, kinds: int = 0) -> Sheets:
+    """Modulus merged over a column for each specimen, then the phase; statistics behind each, if any."""
+    names = [*lab.tests.specimens, *lab.statistics[:kinds]]
+    blank = [None] * (len(names) - 1)
+    down = lab.chance(0.5)
+    head = [lab.name["t"], lab.name["f"]]
+    rows: Rows = [[*(head if down else [None, None]), lab.name["e"], *blank, lab.name["p"], *blank]]
+    rows.append([*([None, None] if down else head), *names, *names])
+    for shown, t, f in lab.grid(lab.chance(0.5)):
+        cells = (
+            [*(lab.both(s, t, f)[w] for s in lab.tests.specimens), *lab.computed(w, t, f, kinds)]
+            for w in (0, 1)
+        )
+        rows.append([shown, f, *(cell for part in cells for cell in part)])
+    return {"Results": rows}
 
 
-def matrices_in_two_sheets(tests: Tests, style: Style) -> dict[str, Grid]:
-    """|E*| on one sheet and the phase on another."""
-    across = _pick(style, "across", ("f", "T"))
-    above, corner = _corner(style, across)
-    (s,) = tests.specimens
+def statistics_beside(lab: Laboratory) -> Sheets:
+    """The same with a mean, a deviation and a CV."""
+    return quantities_over_specimens(lab, int(lab.random.integers(1, 4)))
+
+
+def statistics_below(lab: Laboratory) -> Sheets:
+    """Rows of a mean, a deviation and a CV below the specimens of each condition."""
+    kinds = int(lab.random.integers(1, 4))
+    rows: Rows = [[*(lab.name[k] for k in "tf"), lab.specimen, *(lab.name[k] for k in "ep")]]
+    for _, t, f in lab.grid():
+        rows += [[lab.t(t), f, s, *lab.both(s, t, f)] for s in lab.tests.specimens]
+        computed = zip(lab.computed(0, t, f, kinds), lab.computed(1, t, f, kinds), strict=True)
+        rows += [[lab.t(t), f, word, *both] for word, both in zip(lab.statistics, computed, strict=False)]
+    return {"Data": rows}
+
+
+def numbered(lab: Laboratory) -> Sheets:
+    """The number of the specimen in each name."""
+    numbers = range(1, len(lab.tests.specimens) + 1)
+    link = lab.pick("{} {n} ({})", "{} {n} [{}]", "{}_{n} ({})")
+    name = {k: [link.format(lab.bare[k], lab.units[k], n=n) for n in numbers] for k in "ep"}
+    rows: Rows = [[lab.name["t"], lab.name["f"], *name["e"], *name["p"]]]
+    for shown, t, f in lab.grid():
+        cells = [lab.both(s, t, f)[which] for which in (0, 1) for s in lab.tests.specimens]
+        rows.append([shown, f, *cells])
+    return {"Sheet1": rows}
+
+
+def temperatures_across(lab: Laboratory) -> Sheets:
+    """A column for each temperature."""
+    at = [f"{lab.t(t)} {lab.units['t']}" for t in lab.temperatures]
+    rows: Rows = [[lab.specimen, lab.name["f"], *(f"{lab.name[k]} {one}" for k in "ep" for one in at)]]
+    for s, f in product(lab.tests.specimens, lab.frequencies):
+        rows.append([s, f, *(lab.both(s, t, f)[which] for which in (0, 1) for t in lab.temperatures)])
+    return {"Results": rows}
+
+
+def matrix(lab: Laboratory, s: str, which: int) -> Rows:
+    """One quantity of a specimen, temperature down and frequency across."""
+    head: Rows = [[None, lab.name["f"]], [lab.name["t"], *lab.frequencies]]
+    return head + [[lab.t(t), *(lab.both(s, t, f)[which] for f in lab.frequencies)] for t in lab.temperatures]
+
+
+def matrices_below(lab: Laboratory) -> Sheets:
+    """Matrices of modulus and phase, one specimen below the other."""
+    rows: Rows = []
+    for s in lab.tests.specimens:
+        rows.append([lab.specimen, s])
+        for which, key in enumerate("ep"):
+            rows += [[lab.name[key]], *matrix(lab, s, which), []]
+    return {"Master": rows}
+
+
+def matrices_by_sheet(lab: Laboratory) -> Sheets:
+    """A sheet for each specimen with two matrices."""
     return {
-        name: [[title], *above, *_matrix(tests, style, s, which, corner, across)]
-        for which, (name, title) in enumerate((("Modulus", _modulus(style)), ("Phase", _phase(style))))
+        f"{s}".replace("/", "-"): [
+            [lab.name["e"]],
+            *matrix(lab, s, 0),
+            [],
+            [lab.name["p"]],
+            *matrix(lab, s, 1),
+        ]
+        for s in lab.tests.specimens
     }
 
 
-def matrices_beside(tests: Tests, style: Style) -> dict[str, Grid]:
-    """Frequency down, the temperatures of |E*| and then those of the phase across."""
-    (s,) = tests.specimens
-    count = len(tests.temperatures)
-    temperatures = [f"{style.t(t)} °{style.degree}" for t in tests.temperatures]
-    blank = [None] * (count - 1)
-    grid: Grid = [
-        [None, _modulus(style), *blank, _phase(style), *blank],
-        [_frequency(style), *temperatures, *temperatures],
-    ]
-    for f in tests.frequencies:
-        both = [tests.values[s, t, f] for t in tests.temperatures]
-        grid.append([f, *(style.e(e) for e, _ in both), *(style.p(p) for _, p in both)])
-    return {"Isothermes": grid}
+def isothermal_columns(lab: Laboratory) -> Sheets:
+    """A specimen's frequencies down, temperatures across under the modulus and again under the phase, in sheets."""
+    at = [f"{lab.t(t)} {lab.units['t']}" for t in lab.temperatures]
+    blank = [None] * (len(at) - 1)
+    out: Sheets = {}
+    for s in lab.tests.specimens:
+        rows: Rows = [[None, lab.name["e"], *blank, lab.name["p"], *blank], [lab.name["f"], *at, *at]]
+        for f in lab.frequencies:
+            rows.append([f, *(lab.both(s, t, f)[which] for which in (0, 1) for t in lab.temperatures)])
+        out[s.replace("/", "-")] = rows
+    return out
 
 
-def long(tests: Tests, style: Style) -> dict[str, Grid]:
-    """A row for each test."""
-    grid: Grid = [["Specimen", _temperature(style), _frequency(style), _modulus(style), _phase(style)]]
-    grid += [[s, style.t(t), f, style.e(e), style.p(p)] for (s, t, f), (e, p) in tests.values.items()]
-    return {"Data": grid}
-
-
-def long_parts(tests: Tests, style: Style) -> dict[str, Grid]:
-    """E1 and E2, or |E*| and tan delta, in place of |E*| and phase."""
-    unit = style.modulus
-    style = replace(style, modulus=unit)
-    kind = ("12", "prime", "words", "tan")[style.random.integers(4)]
-    names = {
-        "12": (f"E1 ({unit})", f"E2 ({unit})"),
-        "prime": (f"E' ({unit})", f"E'' ({unit})"),
-        "words": (f"Storage modulus ({unit})", f"Loss modulus ({unit})"),
-        "tan": (_modulus(style), ("tan delta", "tan δ", "tan(phi)")[style.random.integers(3)]),
-    }[kind]
-    grid: Grid = [["Core", _temperature(style), _frequency(style), *names]]
-    factor, digits, _ = MODULUS[unit]
-    for (s, t, f), (e, p) in tests.values.items():
-        star = factor * e * np.exp(1j * np.radians(p))
-        two = (
-            (round(abs(star), digits + 1), round(float(np.tan(np.radians(p))), 5))
-            if kind == "tan"
-            else (round(star.real, digits + 1), round(star.imag, digits + 1))
-        )
-        grid.append([s, style.t(t), f, *two])
-    return {"DMA": grid}
-
-
-def sheets_of_specimens(tests: Tests, style: Style) -> dict[str, Grid]:
-    """A sheet for each specimen with lines above its names."""
-    said = style.random.random() < 0.5
-    sheets: dict[str, Grid] = {}
-    for n, s in enumerate(tests.specimens, start=1):
-        above: Grid = (
-            [["Specimen", s], ["Air voids (%)", 5.1]] if said else [["Project", "A 13"], ["Operator", "me"]]
-        )
-        grid = [*above, [None], [_temperature(style), _frequency(style), _modulus(style), _phase(style)]]
-        for t_shown, f_shown, t, f in _rows(tests, style, merged=True):
-            e, p = tests.values[s, t, f]
-            grid.append([t_shown, f_shown, style.e(e), style.p(p)])
-        sheets[f"Sheet{n}" if said else s] = grid
+def sheet_of_each_specimen(lab: Laboratory) -> Sheets:
+    """A sheet for each specimen, and at times one of means."""
+    sheets: Sheets = {}
+    for s in lab.tests.specimens:
+        rows = [[shown, f, *lab.both(s, t, f)] for shown, t, f in lab.grid(lab.chance(0.5))]
+        sheets[s.replace("/", "-")] = [[lab.name[k] for k in "tfep"], *rows]
+    if lab.chance(0.3):
+        rows = [[lab.t(t), f, *(lab.computed(w, t, f, 1)[0] for w in (0, 1))] for _, t, f in lab.grid()]
+        sheets[lab.statistics[0]] = [[lab.name[k] for k in "tfep"], *rows]
     return sheets
 
 
-def sections(tests: Tests, style: Style) -> dict[str, Grid]:
-    """Specimens below each other, each under its own names."""
-    grid: Grid = []
-    for s in tests.specimens:
-        grid += [["Specimen", s], [_temperature(style), _frequency(style), _modulus(style), _phase(style)]]
-        for t_shown, f_shown, t, f in _rows(tests, style):
-            e, p = tests.values[s, t, f]
-            grid.append([t_shown, f_shown, style.e(e), style.p(p)])
-        grid.append([None])
-    return {"Results": grid}
+def sheet_of_each_temperature(lab: Laboratory) -> Sheets:
+    """A sheet for each temperature, which its name says, at times with the minus sign of a word processor."""
+    minus, unit = lab.pick("-", "\N{MINUS SIGN}"), "F" if lab.fahrenheit else "C"
+    sheets: Sheets = {}
+    for t in lab.temperatures:
+        rows = [[s, f, *lab.both(s, t, f)] for s in lab.tests.specimens for f in lab.frequencies]
+        named = f"{lab.t(t)} °{unit}".replace("-", minus)
+        sheets[named] = [[lab.specimen, *(lab.name[k] for k in "fep")], *rows]
+    return sheets
 
 
-@dataclass(frozen=True)
-class Layout:
-    """How tests are laid out; specimens: how many it takes."""
+def parts(lab: Laboratory) -> Sheets:
+    """Real and imaginary part, or a modulus and tan delta."""
+    tangent = lab.chance(0.4)
+    unit = lab.unit
+    names = [lab.name["e"], lab.pick("tan δ", "tan(φ)")] if tangent else [f"E1 ({unit})", f"E2 ({unit})"]
+    rows: Rows = [[lab.specimen, lab.name["t"], lab.name["f"], *names]]
+    for (s, t, f), (e, p) in lab.tests.values.items():
+        star = UNITS[unit][0] * e * np.exp(1j * np.radians(p))
+        two = [abs(star), np.tan(np.radians(p))] if tangent else [star.real, star.imag]
+        rows.append([s, lab.t(t), f, *(float(f"{x:.6g}") for x in two)])
+    return {"DMA": rows}
 
-    make: Callable[[Tests, Style], dict[str, Grid]]
-    specimens: tuple[int, int] = (2, 4)
-    phase: bool = True
+
+def ampt(lab: Laboratory) -> Sheets:
+    """Summaries of an AMPT, one for each specimen and temperature, as sheets."""
+    sheets: Sheets = {}
+    for n, (s, t) in enumerate(product(lab.tests.specimens, lab.temperatures), start=1):
+        both = [lab.both(s, t, f) for f in lab.frequencies]
+        phase = "Radians" if lab.radians else "Degrees"
+        sheets[f"Summary {n}"] = [
+            ["Test Information"], ["Project name", "Own"], [f"Target test temperature ({lab.units['t']})", lab.t(t)],
+            ["Identification", s], ["Comments"], ["Test results summary"],
+            [None, *(f"{f:g} Hz" for f in lab.frequencies)],
+            [f"Dynamic modulus ({lab.unit})", *(e for e, _ in both)],
+            [f"Phase angle ({phase})", *(p for _, p in both)],
+            [f"Average temperature ({lab.units['t']})", *(lab.t(t) for _ in both)],
+            ["Load drift (%)", *(0.4 for _ in both)], ["Average micro-strain", *(98 for _ in both)],
+        ]  # fmt: skip
+    return sheets
 
 
-LAYOUTS = {
-    "replicates below": Layout(replicates_below),
-    "specimens above": Layout(specimens_above),
-    "flat": Layout(flat),
-    "conditions in names": Layout(conditions_in_names),
-    "matrices below": Layout(matrices_below, (1, 3)),
-    "matrices in two sheets": Layout(matrices_in_two_sheets, (1, 2)),
-    "matrices beside": Layout(matrices_beside, (1, 2)),
-    "matrix without phase": Layout(matrices_below, (1, 2), phase=False),
-    "long": Layout(long),
-    "parts": Layout(long_parts),
-    "sheets of specimens": Layout(sheets_of_specimens),
-    "sections": Layout(sections),
-}
+def utm(lab: Laboratory) -> Sheets:
+    """The summary of a UTM: lines of the project, names, a line of units, a row for each test."""
+    rows: Rows = [["Dynamic Modulus Test, AASHTO T 342"], ["Project:", "Own"], ["Operator:", "me"], []]
+    rows.append(
+        [
+            "Specimen ID",
+            "Target Temperature",
+            "Frequency",
+            "Dynamic Modulus",
+            "Phase Angle",
+            "Axial micro-strain",
+        ]
+    )
+    rows.append([None, lab.units["t"], "Hz", lab.unit, "rad" if lab.radians else "degrees", "µε"])
+    rows += [[s, lab.t(t), f, *lab.both(s, t, f), 97] for s, t, f in lab.tests.values]
+    return {"Summary": rows}
+
+
+def cooper(lab: Laboratory) -> Sheets:
+    """Sections of a Cooper summary, one for each specimen, with both parts of the modulus beside it."""
+    rows: Rows = [["Cooper Research Technology Ltd"], ["Complex modulus, EN 12697-26"], []]
+    units = lab.units
+    names = [
+        f"Test Temp. / {units['t']}",
+        "Frequency / Hz",
+        f"Complex Modulus / {lab.unit}",
+        f"Phase Lag / {units['p']}",
+    ]
+    names += [f"Storage Modulus / {lab.unit}", f"Loss Modulus / {lab.unit}"]
+    for s in lab.tests.specimens:
+        rows += [["Specimen Ref.", s], ["Date of test", "12/05/2023"], names]
+        for _, t, f in lab.grid():
+            e, p = lab.tests.values[s, t, f]
+            star = UNITS[lab.unit][0] * e * np.exp(1j * np.radians(p))
+            rows.append([lab.t(t), f, *lab.both(s, t, f), round(star.real, 2), round(star.imag, 2)])
+        rows.append([])
+    return {"Report": rows}
+
+
+def controls(lab: Laboratory) -> Sheets:
+    """The summary of Controls: set and actual values, the mean over specimens and its CoV in a table of their own."""
+    rows: Rows = [["CONTROLS - Dynapave", None, None, "EN 12697-26 annex D"], ["Customer", "Own"], []]
+    names = ["Sample Name", f"Set Temperature ({lab.units['t']})", f"Actual Temperature ({lab.units['t']})"]
+    names += [
+        "Set Frequency (Hz)",
+        "Actual Frequency (Hz)",
+        f"E* ({lab.unit})",
+        f"Phase Angle ({lab.units['p']})",
+        "No. cycles",
+    ]
+    rows.append(names)
+    for s, t, f in lab.tests.values:
+        rows.append([s, lab.t(t), lab.t(t), f, f, *lab.both(s, t, f), 10])
+    mean: Rows = [["Mean values"], [lab.name["t"], lab.name["f"], f"Mean E* ({lab.unit})", "CoV (%)"]]
+    mean += [
+        [lab.t(t), f, lab.computed(0, t, f, 1)[0], lab.computed(0, t, f, 3)[2]] for _, t, f in lab.grid()
+    ]
+    return {"Test data": rows} | ({"Summary": mean} if lab.chance(0.5) else {})
+
+
+def two_mixes(lab: Laboratory) -> Sheets:
+    """Two mixes in one table with equal numbers, of which M1 is to be read."""
+    (name, rows), *_ = long(lab).items()
+    return {
+        name: [[lab.mix, *rows[0]], *(["M1", *row] for row in rows[1:]), *(["M2", *row] for row in rows[1:])]
+    }
+
+
+FAMILIES: tuple[Callable[[Laboratory], Sheets], ...] = (
+    long, specimens_over_pairs, quantities_over_specimens, statistics_beside, statistics_below, numbered,
+    temperatures_across, matrices_below, matrices_by_sheet, isothermal_columns, sheet_of_each_specimen,
+    sheet_of_each_temperature, parts, ampt, utm, cooper, controls, two_mixes,
+)  # fmt: skip
 
 
 def draw(seed: int, folder: Path) -> tuple[str, Path, Tests]:
-    """One file: its layout, its path and what it holds. The layouts take turns; all else is drawn."""
-    random = np.random.default_rng([seed, 35])
-    name = list(LAYOUTS)[seed % len(LAYOUTS)]
-    layout = LAYOUTS[name]
-    tests = draw_tests(random, int(random.integers(*layout.specimens)), layout.phase)
-    american = random.random() < 0.25 or not layout.phase
-    style = Style(
-        random,
-        modulus=str(random.choice(["ksi", "psi"] if american else ["MPa", "MPa", "GPa"])),
-        phase="rad" if random.random() < 0.15 else "deg",
-        fahrenheit=bool(american),
+    """A file with its tests, of a family by turns; which, where it lies and what it holds."""
+    lab = Laboratory(seed)
+    family = FAMILIES[seed % len(FAMILIES)]
+    sheets = family(lab)
+    if lab.chance(0.25):  # begins in the second column
+        sheets = {name: [[None, *row] for row in rows] for name, rows in sheets.items()}
+    if lab.chance(0.25):
+        title = [[lab.pick("Lot 7", "RN 86, PR 12", "Messung Mai", "Campaña 2021")], []]
+        sheets = {name: [*title, *rows] for name, rows in sheets.items()}
+    ending = (
+        lab.pick("xlsx", "xlsx", "xlsx", "ods", "csv")
+        if len(sheets) == 1
+        else lab.pick("xlsx", "xlsx", "ods")
     )
-    sheets = layout.make(tests, style)
-    if random.random() < 0.4:
-        titles = [
-            [["Essai de module complexe NF EN 12697-26"], ["Enrobé : EME 2 0/14, liant 20/30"]],
-            [["Complex modulus test, AASHTO T 378"], ["Mix", "SP 12.5 PG 64-22"], [None]],
-            [["Steifigkeit nach TP Asphalt-StB"], [None]],
-        ][random.integers(3)]
-        sheets = {sheet: [*titles, *grid] for sheet, grid in sheets.items()}
-    if random.random() < 0.3:
-        sheets = {sheet: [*grid, [None], ["Checked by", "J. Doe"]] for sheet, grid in sheets.items()}
-    text = len(sheets) == 1 and random.random() < 0.35
-    path = folder / f"{seed:03d} {name}.{'csv' if text else 'xlsx'}"
-    _write_text(path, next(iter(sheets.values())), random) if text else _write_workbook(path, sheets)
-    return name, path, tests
+    path = folder / f"{family.__name__}_{seed}.{ending}"
+    {"xlsx": _save_xlsx, "ods": _save_ods, "csv": _save_csv}[ending](path, sheets, lab)
+    return family.__name__, path, lab.tests
 
 
-def _write_text(path: Path, grid: Grid, random: np.random.Generator) -> None:
-    """With semicolons and decimal commas, or with commas and points, as a spreadsheet saves it."""
-    german = random.random() < 0.6
-    mark = ";" if german else ","
-    lines = []
-    for row in grid:
-        cells = ["" if cell is None else str(cell) for cell in row]
-        cells = [
-            cell.replace(".", ",") if german and isinstance(value, float) else cell
-            for cell, value in zip(cells, row)
-        ]
-        lines.append(mark.join(f'"{cell}"' if mark in cell else cell for cell in cells))
-    path.write_text(
-        "\r\n".join(lines) + "\r\n", encoding="cp1252" if german and _latin(lines) else "utf-8-sig"
-    )
-
-
-def _latin(lines: list[str]) -> bool:
-    try:
-        "".join(lines).encode("cp1252")
-    except UnicodeEncodeError:
-        return False
-    return True
-
-
-def _write_workbook(path: Path, sheets: dict[str, Grid]) -> None:
-    """With cells that are truly merged over the empty ones behind a text."""
+def _save_xlsx(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     book = openpyxl.Workbook()
-    book.remove(book.worksheets[0])
-    for name, grid in sheets.items():
+    book.remove(book.active)
+    hide = lab.chance(0.1)
+    for name, rows in sheets.items():
         sheet = book.create_sheet(name)
-        for row in grid:
+        for row in rows:
             sheet.append(row)
-        sheet.column_dimensions[get_column_letter(1)].width = 20
+        sheet.row_dimensions[len(rows)].hidden = hide
     book.save(path)
+
+
+def _save_csv(path: Path, sheets: Sheets, lab: Laboratory) -> None:
+    """With semicolons and decimal commas where the language has them."""
+    ((_, rows),) = sheets.items()
+    english = lab.language == "en"
+
+    def cell(value: Any) -> str:
+        text = "" if value is None else str(value)
+        return text if english or not isinstance(value, float) else text.replace(".", ",")
+
+    encoding = lab.pick("utf-8", "utf-8-sig", "utf-16", "cp1252")
+    try:
+        str(rows).encode(encoding)
+    except UnicodeEncodeError:
+        encoding = "utf-8-sig"
+    with path.open("w", newline="", encoding=encoding) as file:
+        csv.writer(file, delimiter="," if english else ";").writerows(
+            [cell(value) for value in row] for row in rows
+        )
+
+
+def _save_ods(path: Path, sheets: Sheets, lab: Laboratory) -> None:
+    """As LibreOffice keeps it."""
+
+    def cell(value: Any) -> str:
+        if value is None:
+            return "<table:table-cell/>"
+        number = isinstance(value, int | float)
+        kind = f'float" office:value="{value}' if number else "string"
+        return f'<table:table-cell office:value-type="{kind}"><text:p>{escape(str(value))}</text:p></table:table-cell>'
+
+    names = "".join(
+        f' xmlns:{n}="urn:oasis:names:tc:opendocument:xmlns:{n}:1.0"' for n in ("office", "table", "text")
+    )
+    tables = "".join(
+        f'<table:table table:name="{escape(name)}">'
+        + "".join(f"<table:table-row>{''.join(map(cell, row or [None]))}</table:table-row>" for row in rows)
+        + "</table:table>"
+        for name, rows in sheets.items()
+    )
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
+        archive.writestr("META-INF/manifest.xml", "<manifest/>")
+        body = f"<office:body><office:spreadsheet>{tables}</office:spreadsheet></office:body>"
+        archive.writestr(
+            "content.xml",
+            f'<office:document-content{names} office:version="1.2">{body}</office:document-content>',
+        )

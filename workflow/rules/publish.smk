@@ -81,6 +81,7 @@ PUBLISHED = {
     "publish_mutants": Published(
         "mutants", ["mutants.csv", "provenance.json"], {"mutants": "summary.csv"}, ["CONTRIBUTING.md"]
     ),
+    "publish_layouts": Published("layouts", ["layouts.csv", "provenance.json"], {"layouts": "summary.csv"}),
     "publish_cluster": Published("cluster", ["cluster.csv", "provenance.json"]),
 }
 

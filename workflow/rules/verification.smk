@@ -34,3 +34,24 @@ rule mutants:
         "Try the mutants"
     shell:
         "{params.mutants} --output results/mutants > {log} 2>&1"
+
+
+rule layouts:
+    """Two hundred files as laboratories lay them out: each read as it was meant, or refused; never read wrongly."""
+    input:
+        trial=[shipped(f"trials/layouts/{name}.py") for name in ("__main__", "generator", "score")],
+        code=local(stamp(".snakemake/code", "layouts", source_files("table_import.campaign", "api.reading")).as_posix()),
+    output:
+        multiext("results/layouts/", "layouts.csv", "summary.csv", "provenance.json"),
+    log:
+        "results/layouts/logs/layouts.log",
+    benchmark:
+        "results/layouts/benchmarks/layouts.tsv"
+    params:
+        trial=f"env PYTHONPATH={CLONE / 'trials'}:$PYTHONPATH {sys.executable} -m layouts",
+        number=200,
+        seed=7_000_000,  # none that was looked at while the reader was written
+    message:
+        "Read files as laboratories lay them out"
+    shell:
+        "{params.trial} {params.number} {params.seed} --output results/layouts > {log} 2>&1"

@@ -28,12 +28,13 @@ def read(
     sheet: str | None = None,
     columns: Mapping[str, str] | None = None,
     measured_in: str | None = None,
+    mix: str | None = None,
 ) -> pd.DataFrame | Law | Diagnosis | Packing | Specimen | Test:
     """Read what a file, a folder or a DataFrame holds.
 
-    * Measurements (CSV, TSV, XLSX, exports of testing machines, or a folder of them, or a DataFrame with columns that
-      are named so): a DataFrame with one row for each test: specimen, temperature_C, frequency_Hz, E_MPa and phase_deg
-      (or F0_N, z0_m and psi_deg), and what else the machine gave. `attrs["notes"]` says how it was read.
+    * Measurements (CSV, TSV, workbooks, exports of testing machines, or a folder of them, or a DataFrame with columns
+      that are named so): a DataFrame with one row for each test: specimen, temperature_C, frequency_Hz, E_MPa and
+      phase_deg (or F0_N, z0_m and psi_deg), and what else the machine gave. `attrs["notes"]` says how it was read.
     * A folder with a diagnosis.json, or that file: a Diagnosis.
     * A law (JSON): a Law.
     * A result file of the simulation (HDF5): a Packing, a Specimen or a Test.
@@ -43,11 +44,13 @@ def read(
     source : path, folder, several of them, or DataFrame
         What is read.
     sheet : str, optional
-        Of an XLSX file; else every sheet that holds tests.
+        Of a workbook; else every sheet that holds tests.
     columns : mapping, optional
         What a column holds where its name does not say it, {"E_GPa": "Steifigkeit"}.
     measured_in : str, optional
         "bending" or "tension-compression"; else what the files say.
+    mix : str, optional
+        The only one to read of files with a column of mixes.
 
     Returns
     -------
@@ -88,4 +91,4 @@ def read(
             if isinstance(content, dict) and "schema_version" in content:
                 return Diagnosis.read(path.parent)
             return Law(content, path)
-    return frame_of(campaign_in(source, sheet, columns, measured_in))
+    return frame_of(campaign_in(source, sheet, columns, measured_in, mix))

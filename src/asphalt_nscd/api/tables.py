@@ -25,6 +25,7 @@ def campaign_in(
     sheet: str | None = None,
     columns: Mapping[str, str] | None = None,
     measured_in: str | None = None,
+    mix: str | None = None,
 ) -> Campaign:
     """Measurements in any form that people have them, as a campaign.
 
@@ -33,11 +34,13 @@ def campaign_in(
     measurements : path, folder, several of them, DataFrame or Campaign
         What is read.
     sheet : str, optional
-        Of an XLSX file; else every sheet that holds tests.
+        Of a workbook; else every sheet that holds tests.
     columns : mapping of str to str, optional
         What a column holds where its name does not say it.
     measured_in : str, optional
         "bending" or "tension-compression"; else what the files say.
+    mix : str, optional
+        The only one to read of files with a column of mixes.
 
     Returns
     -------
@@ -61,7 +64,7 @@ def campaign_in(
             f"measurements: no table ({type(measurements).__name__}); give a file, a folder, several of "
             "them, or a DataFrame."
         )
-    return read_campaign([Path(path) for path in several], sheet, columns, measured_in)[0]
+    return read_campaign([Path(path) for path in several], sheet, columns, measured_in, mix)[0]
 
 
 def observed_in(measurements: Any) -> tuple[Observations, str, str]:

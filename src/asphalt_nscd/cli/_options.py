@@ -209,7 +209,8 @@ OUTPUT = option("File to write.")
 OUTPUTS = option("File to write, one for each.", key="output")
 GEOMETRY = option("Trapezoidal specimen.", type=Geometry())
 MEASURED_IN = option("Test that gave the moduli; else what the files say.", None, choices=list(TEST_TYPES))
-SHEET = option("The only sheet of an XLSX file to read; else all that hold tests.", None)
+ONLY_MIX = option("The only mix to read of tables with a column of mixes.", None)
+SHEET = option("The only sheet of a workbook to read; else all that hold tests.", None)
 COLUMNS = option(
     "What a column holds, if its name does not say.",
     (),

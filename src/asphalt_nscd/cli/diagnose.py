@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from asphalt_nscd.cli import _data
-from asphalt_nscd.cli._options import COLUMNS, MEASURED_IN, SHEET, Geometry, option, step
+from asphalt_nscd.cli._options import COLUMNS, MEASURED_IN, ONLY_MIX, SHEET, Geometry, option, step
 from asphalt_nscd.cli._progress import bars
 from asphalt_nscd.diagnosis.settings import Draws, Known, Scatter, Simulated
 from asphalt_nscd.reporting.settings import Heading
@@ -37,6 +37,7 @@ def command(
     *,
     output: Path = option("Folder for diagnosis.json and residuals.csv."),
     sheet: str | None = SHEET,
+    only_mix: str | None = ONLY_MIX,
     columns: tuple[tuple[str, str], ...] = COLUMNS,
     measured_in: str | None = MEASURED_IN,
     geometry: Any = option(
@@ -57,7 +58,7 @@ def command(
     """Say which tests can be trusted, what is wrong with the others, which law they follow and what to test next.
 
     MEASUREMENTS: files or a folder of them. Read are exports of testing machines (AMPT, UTM) and tables (CSV,
-    TSV, XLSX) with a row for each test or a column for each temperature or frequency.
+    TSV, workbook) with a row for each test or a column for each temperature or frequency.
     """
     percent, degrees = scatter.modulus_scatter_percent, scatter.phase_scatter_deg
     if (percent is None) != (degrees is None):
@@ -72,7 +73,7 @@ def command(
 
     if percent is not None and degrees is not None:
         known = replace(known, scatter=(percent, degrees))
-    campaign = campaign_in(measurements, sheet, dict(columns), measured_in)
+    campaign = campaign_in(measurements, sheet, dict(columns), measured_in, only_mix)
     # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
     title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
     if has_no_phase(campaign):

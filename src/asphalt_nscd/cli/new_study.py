@@ -5,7 +5,17 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.cli._options import COLUMNS, CYLINDER, MEASURED_IN, SHEET, TRAPEZOID, Geometry, option, step
+from asphalt_nscd.cli._options import (
+    COLUMNS,
+    CYLINDER,
+    MEASURED_IN,
+    ONLY_MIX,
+    SHEET,
+    TRAPEZOID,
+    Geometry,
+    option,
+    step,
+)
 from asphalt_nscd.table_import.quantities import MEASURED, SIEVES, spellings
 
 
@@ -26,9 +36,10 @@ def command(
     name: str,
     *,
     measurements: tuple[Path, ...] = option(
-        "Table (CSV, TSV, XLSX), machine export, or a folder of them; repeatable."
+        "Table (CSV, TSV, workbook), machine export, or a folder of them; repeatable."
     ),
     sheet: str | None = SHEET,
+    only_mix: str | None = ONLY_MIX,
     columns: tuple[tuple[str, str], ...] = COLUMNS,
     geometry: Any = option(
         "Specimens, b_mm equal to B_mm for prisms. Needed for F0 and z0. With moduli the default is the paper's, with "
@@ -44,7 +55,7 @@ def command(
     from asphalt_nscd.table_import.write import StudyOptions, new_study
 
     geometry = Path(geometry) if isinstance(geometry, str) else geometry
-    options = StudyOptions(geometry, grading, measured_in, small, sheet, dict(columns))
+    options = StudyOptions(geometry, grading, measured_in, small, sheet, dict(columns), only_mix)
     config, notes = new_study(name, measurements, options)
     for note in notes:
         click.echo(note)

@@ -3,6 +3,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import click
+
 from asphalt_nscd.cli._options import GEOMETRY, OUTPUT, option, step
 
 
@@ -18,5 +20,8 @@ def command(
 ) -> None:
     """Reduce measured peaks, records or moduli to complex moduli, Eqs. (1)-(5)."""
     from asphalt_nscd.measurements.reduction import reduce_table
+    from asphalt_nscd.measurements.signs import negative_phases
 
-    reduce_table(measurements, geometry, output, cycles=cycles)
+    table = reduce_table(measurements, geometry, output, cycles=cycles)
+    if note := negative_phases(table):
+        click.echo(note, err=True)

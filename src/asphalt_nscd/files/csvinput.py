@@ -34,6 +34,9 @@ _CONVERSIONS = {
     ("ms", "s"): "divide by 1000",
     ("rad/s", "Hz"): "divide by 2 pi",
 }
+Values = (
+    list[str] | NDArray[np.float64]
+)  # of a column: texts as they stand, or numbers, NaN where a cell is empty
 _AS_CSV = (
     "save it as UTF-8 CSV with commas and decimal points, or have `asphalt-nscd new-study` read it as it is"
 )
@@ -50,14 +53,14 @@ class Limits:
 
 @dataclass(frozen=True)
 class Table:
-    """A CSV file as text: columns by name.
+    """Columns by name: texts of a CSV file, or numbers of a table that was understood.
 
     `lines` holds for each row its line number in the file, from 1; `files` the file of each row, where the table was
     put together from several.
     """
 
     path: Path
-    columns: dict[str, list[str]]
+    columns: dict[str, Values]
     lines: list[int]
     files: list[Path] | None = None
 
@@ -99,12 +102,13 @@ class Table:
 
         It goes into tables that are opened again in spreadsheets.
         """
-        for row, value in enumerate(self.columns[name]):
+        texts = [str(value) for value in self.columns[name]]
+        for row, value in enumerate(texts):
             if not value:
                 raise self.error(row, f"{name} is empty; fill it in or remove the line.")
             if value[0] in "=+-@":
                 raise self.error(row, f"{name} {value!r} would be a formula in a spreadsheet; rename it.")
-        return self.columns[name]
+        return texts
 
     def numbers(self, name: str, limits: Limits | None = None) -> NDArray[np.float64]:
         """A column (n,) of finite numbers, all within `limits`."""
@@ -123,12 +127,16 @@ class Table:
         """A column (n,) that may be absent or have empty fields, which become NaN."""
         if name not in self.columns:
             return np.full(len(self.lines), np.nan)
-        return np.array(
-            [self._number(name, row) if text else np.nan for row, text in enumerate(self.columns[name])]
-        )
+        given = self.columns[name]
+        if isinstance(given, np.ndarray):
+            return given
+        return np.array([self._number(name, row) if text else np.nan for row, text in enumerate(given)])
 
     def _number(self, name: str, row: int) -> float:
-        text = self.columns[name][row]
+        value = self.columns[name][row]
+        if isinstance(value, float) and math.isfinite(value):
+            return value
+        text = "" if value != value else str(value)
         try:
             value = plain_number(text)
         except ValueError:
@@ -173,7 +181,7 @@ def read_csv(path: str | Path) -> Table:
                 f"line {line}: {len(fields)} fields under {len(header)} column names",
                 "separate with commas and write decimals with a point",
             )
-    columns = {name: [fields[i] for _, fields in rows[1:]] for i, name in enumerate(header)}
+    columns: dict[str, Values] = {name: [row[i] for _, row in rows[1:]] for i, name in enumerate(header)}
     return Table(path, columns, [line for line, _ in rows[1:]])
 
 

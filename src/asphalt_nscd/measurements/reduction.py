@@ -16,8 +16,10 @@ from asphalt_nscd.files.paths import inside
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements import signals, twopoint
+from asphalt_nscd.measurements.campaign import nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.limits import LIMITS, least_modulus
+from asphalt_nscd.measurements.signs import wrong_sign
 
 LEAST_TESTS, LEAST_FREQUENCIES = 4, 2  # that a diagnosis takes
 ORIGINS = ("measured", "digitised", "reconstructed", "synthetic")
@@ -51,7 +53,11 @@ def reduce_table(
     of records are relative to the table. `geometry` is that of `read_geometry`, not looked at for ready moduli.
     `cycles` is the window for records, None for the last ten seconds.
     """
-    frame = reduced_frame(read_csv(measurements), geometry, cycles=cycles)
+    table = read_csv(measurements)
+    frame = reduced_frame(table, geometry, cycles=cycles)
+    isotherm = nominal_temperatures(table, frame["temperature_C"].to_numpy(float))
+    if (turned := wrong_sign(frame.assign(temperature_C=isotherm))) is not None:
+        raise table.error(*turned)
     frame = frame.reindex(columns=REDUCED_COLUMNS)
     write_table(output, frame)
     return frame

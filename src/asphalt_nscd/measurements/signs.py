@@ -14,6 +14,7 @@ from asphalt_nscd.files.words import specimen_named
 
 LEAST = 6.0  # deg below zero that neither scatter nor an offset of a stiff mix is
 NEAR = 2.0, 0.2  # deg, or share of the phase expected, within which the phase with its sign changed must come
+SCATTER = 0.5  # deg, of the phase of an elastic beam about zero
 LEAST_SWEEP = 3  # tests of a sweep
 
 Vector = NDArray[np.float64]
@@ -49,6 +50,19 @@ def wrong_sign(table: pd.DataFrame) -> tuple[int, str] | None:
                     f"{place} say about +{expected:.3g} deg: the sign is wrong; remove the minus sign."
                 )
     return None
+
+
+def negative_phases(table: pd.DataFrame) -> str:
+    """A sentence on the phases below zero of a reduced table, which no passive material has; empty without any."""
+    low = table[table["phase_deg"] < -SCATTER]
+    if low.empty:
+        return ""
+    worst = low.loc[low["phase_deg"].idxmin()]
+    return (
+        f"{len(low)} of {len(table)} phases are below zero, at worst {worst['phase_deg']:.3g} deg "
+        f"({specimen_named(str(worst['specimen']))}, {worst['temperature_C']:g} degC, {worst['frequency_Hz']:g} Hz): "
+        "no material gives back more than it takes, and a channel that lags does; diagnose says which."
+    )
 
 
 def _usual(table: pd.DataFrame, sweep: pd.DataFrame, column: str, value: float) -> bool:

@@ -3,43 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
+from typing import NamedTuple
 
+import numpy as np
 import pandas as pd
+from numpy.typing import NDArray
 
-from asphalt_nscd.files.csvinput import Table
+from asphalt_nscd.files.csvinput import Table, Values
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
 from asphalt_nscd.files.words import choice, counted
 from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.kinds import UNKNOWN
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
-from asphalt_nscd.table_import.cells import Cells, NotTests, Row, Sheet, read_sheets
+from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, read_sheets
+from asphalt_nscd.table_import.computed import computed_specimens
 from asphalt_nscd.table_import.contested import refuse_mislabelled
-from asphalt_nscd.table_import.header_lines import attach_units, require_rows, sections, tabulated
-from asphalt_nscd.table_import.machine_exports import blocks
-from asphalt_nscd.table_import.matrices import matrix_cells
-from asphalt_nscd.table_import.melt import holds_means
+from asphalt_nscd.table_import.layouts import Layout, layout_of
 from asphalt_nscd.table_import.quantities import QUALITY
 from asphalt_nscd.table_import.schemes import schemes_in
-from asphalt_nscd.table_import.several_files import Part, drop_copies, drop_repeated, unify_spelling
-from asphalt_nscd.table_import.sheets import is_computed_sheet, told_by_sheet
+from asphalt_nscd.table_import.several_files import Part, drop_copies, drop_repeated, rows_of, unify_spelling
 from asphalt_nscd.table_import.skipped_files import SkippedFile, common_mend, listed, refused
 from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
     FURTHER,
     MAY_BE_ABSENT,
+    TEXTS,
     names_force_or_modulus,
     understand,
 )
 
-TEXTS = (".txt", ".dat")  # which may hold running text
-OTHER_TABLES = (".xls", ".xlsb", ".ods")
+TEXT_FILES = (".txt", ".dat")  # which may hold running text
 SAVE_AS = "save it as CSV or XLSX."
-TABLES = (".csv", ".tsv", *TEXTS, ".xlsx", ".xlsm")
+TABLES = (".csv", ".tsv", *TEXT_FILES, ".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
 MOST_FILES = 500
 _MEASURED = ("temperature_C", "nominal_temperature_C", "E_MPa", "phase_deg")
+
+
+class _Wanted(NamedTuple):
+    """What the user named: the only sheet, columns by what they hold, the only mix."""
+
+    sheet: str | None
+    columns: Mapping[str, str]
+    mix: str | None
+
+
 IN_THE_MENU = "choose it in the menu"
 
 
@@ -48,20 +57,25 @@ def read_campaign(
     sheet: str | None = None,
     chosen: Mapping[str, str] | None = None,
     test_type: str | None = None,
+    mix: str | None = None,
 ) -> tuple[Campaign, str]:
-    """The campaign that files and folders hold together, and its form; `test_type` None takes what the files say."""
+    """The campaign that files and folders hold together, and its form; `test_type` None takes what the files say.
+
+    `chosen` names columns by what they hold; `mix` is the only one to read of a column of mixes.
+    """
+    wanted = _Wanted(sheet, chosen or {}, mix)
     notes: list[str] = []
     parts: list[Part] = []
     without_tests: list[str] = []
     for path in paths:
         if path.is_dir():
-            found, said = _folder(path, notes, sheet, chosen)
+            found, said = _folder(path, notes, wanted)
             without_tests += [said] if said else []
         else:
-            found = _file(path, notes, sheet, chosen)
+            found = _file(path, notes, wanted)
         parts += found
     # Exports first: a table that was made from them is then the copy, and their quality columns stay.
-    parts = drop_copies(sorted(parts, key=lambda part: not part.exported), notes)
+    parts = drop_copies(sorted(parts, key=lambda part: not part.block.exported), notes)
     parts = unify_spelling(parts, notes)
     refuse_mislabelled(parts)
     _require_named_specimens(paths, parts)
@@ -73,9 +87,9 @@ def read_campaign(
             f"{_called(paths)}: the files hold {' and '.join(forms)}; give those of one form together."
         )
     kind = test_type or _told_kind(paths, parts, forms[0], notes)
-    table = _joined(paths, parts, notes)
+    table = _measured(_joined(paths, parts, notes), notes)
     _require_unit(paths, parts, table)
-    specimens = list(dict.fromkeys(table.columns["specimen"]))
+    specimens = list(dict.fromkeys(table.text("specimen")))
     notes.append(
         f"{counted(len(specimens), 'specimen')}: {', '.join(specimens[:12])}{', ...' if len(specimens) > 12 else ''}"
     )
@@ -86,7 +100,7 @@ def read_campaign(
 
 def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: list[str]) -> str:
     """The kind of test that files say: machines that export, forces of a bending test, or the name of its scheme."""
-    if any(part.exported for part in parts):
+    if any(part.block.exported for part in parts):
         way = choice("say --measured-in bending", IN_THE_MENU)
         notes.append(f"a machine export (AMPT, UTM) is taken as an axial test; for bending {way}")
         return "tension-compression"
@@ -107,14 +121,14 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
 
 def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> None:
     """Refuse exports without a specimen if every file, taken for one, was tested at one of several temperatures."""
-    if not parts or not all(part.unnamed for part in parts):
+    if not parts or not all(part.block.unnamed for part in parts):
         return
-    specimens = {part.read.table.columns["specimen"][0] for part in parts}
+    specimens = {part.specimens[0] for part in parts}
     files = {part.path for part in parts}
-    at = [list(map(float, _isotherm(part.read.table))) for part in parts]
+    at = [_isotherm(part.read.table) for part in parts]
     # At one temperature files 1, 2, 3 may be specimens; each at its own they are isotherms of one.
-    several = max(map(max, at)) - min(map(min, at)) > FAR
-    if len(specimens) == len(parts) == len(files) and several and all(max(t) - min(t) < FAR for t in at):
+    several = np.ptp(np.concatenate(at)) > FAR
+    if len(specimens) == len(parts) == len(files) and several and all(np.ptp(t) < FAR for t in at):
         raise InputError(
             f"{_called(paths)}: {len(files)} files, {len(specimens)} specimens, each at one temperature only: write "
             "the specimen into Identification, or into the names of the files as in K10_21C."
@@ -137,8 +151,11 @@ def _require_unit(paths: Sequence[Path], parts: Sequence[Part], table: Table) ->
         raise InputError(f"{_called(paths)}: {question} Write it into the name of the column.")
 
 
-def _isotherm(table: Table) -> list[str]:
-    return table.columns.get("nominal_temperature_C", table.columns["temperature_C"])
+def _isotherm(table: Table) -> NDArray[np.float64]:
+    """Target temperatures (n,) [degC], or those measured."""
+    return table.numbers_or_nan(
+        "nominal_temperature_C" if "nominal_temperature_C" in table.columns else "temperature_C"
+    )
 
 
 def _require_one_mix(parts: Sequence[Part]) -> None:
@@ -150,83 +167,41 @@ def _require_one_mix(parts: Sequence[Part]) -> None:
         )
 
 
-def _file(path: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, str] | None) -> list[Part]:
+def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:
     """Tests of a file; of several sheets each that holds tests, the others named in the notes."""
     require_readable(path, "check the path")
-    sheets = read_sheets(path, sheet)
-    notes_of_file = list(sheets[0].notes) if len(sheets) == 1 else []
-    if (cells := matrix_cells(path, sheets, notes_of_file)) is not None:
-        return [Part(path, understand(cells, chosen), False)]
-    if len(sheets) == 1:
-        return _sheet(path, sheets[0], chosen)
+    sheets = read_sheets(path, wanted.sheet)
+    if layout := layout_of(sheets):
+        return _parts(path, layout, sheets, wanted)
     parts: list[Part] = []
     skipped: list[SkippedFile] = []
     for one in sheets:
-        # Errors and notes name the sheet as a part of the file's name.
-        place = path.with_name(f"{path.name}, sheet {one.name}")
         try:
-            parts += _sheet(place, one, chosen, alone=False)
+            layout = layout_of([one])
+            parts += _parts(path, layout, [one], wanted) if layout else []
         except InputError as error:
             # It was meant to hold tests: passed over with a note, a test was lost and nobody saw it.
             if not isinstance(error, NotTests) and _names_tests(one.rows):
                 raise
-            skipped.append(refused(f"sheet {one.name} of {path.name}", error, place))
+            skipped.append(refused(f"sheet {one.name} of {path.name}", error, one.path))
     if not parts:
         raise NotTests(f"{path}: no sheet holds tests; it has {listed(skipped)}; give a table of moduli.")
-    if not all(part.means for part in parts):
-        skipped += [SkippedFile(part.source, "means of other sheets") for part in parts if part.means]
-        parts = [part for part in parts if not part.means]
+    if not all(part.block.means for part in parts):
+        skipped += [SkippedFile(part.source, "means of other sheets") for part in parts if part.block.means]
+        parts = [part for part in parts if not part.block.means]
     read = list(dict.fromkeys(part.source.rpartition(", sheet ")[2] for part in parts))
     way = choice("; --sheet takes one alone", "")
     notes.append(f"{counted(len(read), 'sheet')} of {path.name} read: {', '.join(read)}{way}")
     notes += [f"skipped {listed([one])}" for one in skipped]
-    return [replace(part, path=path) for part in parts]
+    return parts
 
 
-def _sheet(path: Path, sheet: Sheet, chosen: Mapping[str, str] | None, alone: bool = True) -> list[Part]:
-    """Tests of one sheet; beside others, its name may say their specimen and temperature."""
-    notes = list(sheet.notes) if alone else [note for note in sheet.notes if note != f"sheet {sheet.name}"]
-    require_rows(path, sheet.rows)
-    exported = blocks(path, sheet.rows, notes, path.stem if alone else str(sheet.name))
-    if exported:
-        return [
-            Part(
-                path,
-                understand(one.cells, chosen),
-                True,
-                one.repeated,
-                one.tested,
-                one.contested,
-                one.unnamed,
-            )
-            for one in exported
-        ]
-    tables = [
-        _table(path, rows, notes, None if alone else str(sheet.name), chosen or {})
-        for rows in sections(sheet.rows)
-    ]
-    return [Part(path, understand(table, chosen), False, means=holds_means(table)) for table in tables]
+def _parts(path: Path, layout: Layout, sheets: Sequence[Sheet], wanted: _Wanted) -> list[Part]:
+    blocks = layout.read(sheets, wanted.columns)
+    return [Part(path, understand(block.cells, wanted.columns, wanted.mix), block) for block in blocks]
 
 
-def _table(
-    path: Path, rows: list[Row], notes: list[str], name: str | None, chosen: Mapping[str, str]
-) -> Cells:
-    """A table, with what the name of its sheet says of it; None where that is not looked at."""
-    cells = tabulated(path, rows, notes)
-    if name is None:
-        return cells
-    if is_computed_sheet(name, cells):
-        way = choice("with --sheet", "alone")
-        raise NotTests(
-            f"{path}: its name says that it was computed of others; give it {way} if it holds tests."
-        )
-    # Units first: a column that the name of the sheet fills would be a number in their line.
-    return told_by_sheet(attach_units(cells), name, chosen)
-
-
-def _folder(
-    folder: Path, notes: list[str], sheet: str | None, chosen: Mapping[str, str] | None
-) -> tuple[list[Part], str]:
+def _folder(folder: Path, notes: list[str], wanted: _Wanted) -> tuple[list[Part], str]:
     """Tests of the files in a folder, and a sentence on those that hold none, which the notes name too."""
     # `~$NAME` is what Excel keeps beside an open workbook.
     inside = [path for path in folder.iterdir() if not path.name.startswith((".", "~$"))]
@@ -241,16 +216,16 @@ def _folder(
         if path.is_dir():
             others.append(SkippedFile(path.name, "a folder; name it too if it belongs to the campaign"))
         elif path.suffix.lower() not in TABLES:
-            table = path.suffix.lower() in OTHER_TABLES or _holds_tests(path, sheet)
-            known = SkippedFile(path.name, "neither CSV, TSV, TXT nor XLSX", SAVE_AS)
+            table = _holds_tests(path, wanted.sheet)
+            known = SkippedFile(path.name, "neither text nor workbook", SAVE_AS)
             (empty if table else others).append(known)
         else:
             try:
-                parts += _file(path, notes, sheet, chosen)
+                parts += _file(path, notes, wanted)
             except InputError as error:
-                if not isinstance(error, NotTests) and _meant(path, sheet):
+                if not isinstance(error, NotTests) and _meant(path, wanted.sheet):
                     raise
-                text = isinstance(error, NotTests) and path.suffix.lower() in TEXTS
+                text = isinstance(error, NotTests) and path.suffix.lower() in TEXT_FILES
                 (others if text else empty).append(refused(path.name, error, path))
     if not parts:
         held = f"; it holds {listed([*empty, *others])}" if empty or others else ""
@@ -271,7 +246,7 @@ def _meant(path: Path, sheet: str | None) -> bool:
     try:
         return any(_names_tests(one.rows) for one in read_sheets(path, sheet))
     except InputError:
-        return path.suffix.lower() not in TEXTS
+        return path.suffix.lower() not in TEXT_FILES
 
 
 def _holds_tests(path: Path, sheet: str | None) -> bool:
@@ -295,22 +270,30 @@ def _joined(paths: Sequence[Path], parts: list[Part], notes: list[str]) -> Table
         raise InputError(f"{_called(paths)}: records are read from one table only; join the tables.")
     tables = [part.read.table for part in parts]
     names = list(dict.fromkeys(name for table in tables for name in table.columns))
-    columns: dict[str, list[str]] = {}
+    columns: dict[str, Values] = {}
     for name in names:
         whole = all(name in table.columns for table in tables)
         if not whole and name in ("replicate", *FURTHER) and name != "nominal_temperature_C":
             notes.append(f"{name} left out, because not every file gives it")
-            continue
-        columns[name] = [text for table in tables for text in table.columns.get(name, _missing(name, table))]
+        elif name in TEXTS:
+            # Only what is not measured needs to say so.
+            missing = "measured" if name == "origin" else ""
+            given = (table.columns.get(name, [missing] * len(table.lines)) for table in tables)
+            columns[name] = [text for texts in given for text in texts]
+        else:
+            columns[name] = np.concatenate([table.numbers_or_nan(name) for table in tables])
     files = [part.read.table.path for part in parts for _ in part.read.table.lines]
     return Table(Path(_called(paths)), columns, [line for table in tables for line in table.lines], files)
 
 
-def _missing(name: str, table: Table) -> list[str]:
-    if name == "origin":
-        # Only what is not measured needs to say so.
-        return ["measured"] * len(table.lines)
-    return [""] * len(table.lines)
+def _measured(table: Table, notes: list[str]) -> Table:
+    """The table without specimens that equal a mean or a deviation of the others."""
+    if not (computed := computed_specimens(table)):
+        return table
+    notes.append(
+        f"left out, means and deviations of the other specimens by their numbers: {', '.join(computed)}"
+    )
+    return rows_of(table, [row for row, name in enumerate(table.text("specimen")) if name not in computed])
 
 
 def _called(paths: Sequence[Path]) -> str:
@@ -319,8 +302,8 @@ def _called(paths: Sequence[Path]) -> str:
 
 def _sources(part: Part) -> list[str]:
     """Which of the user's columns became which of ours; an export's in one sentence."""
-    sources = part.read.sources
-    if not part.exported:
+    sources = {name: column.source for name, column in part.read.read.items()}
+    if not part.block.exported:
         return [f"{name} from column {source}" for name, source in sources.items()]
     measured = ", ".join(f"{name} from {sources[name]}" for name in _MEASURED if name in sources)
     kept = ", ".join(name for name in MAY_BE_ABSENT if name in sources)

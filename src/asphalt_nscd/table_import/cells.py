@@ -1,4 +1,4 @@
-"""Tables as people have them, CSV, TSV or XLSX, as cells of text. Nothing in them is evaluated."""
+"""Tables as people have them, text or workbook, as cells. Nothing in them is evaluated."""
 
 from __future__ import annotations
 
@@ -8,10 +8,12 @@ import re
 import warnings
 import zipfile
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.decimals import Number
 
 MOST_BYTES = 20_000_000
 # Known from the archive's list before anything is unpacked: 20 MB may unpack to gigabytes.
@@ -33,11 +35,26 @@ class NotTests(InputError):
 
 @dataclass(frozen=True)
 class Sheet:
-    """Text rows, with their lines, of a sheet of a workbook, or of a text file (`name` None); `notes` tell how read."""
+    """Rows, with their lines, of a sheet of a workbook, or of a text file (`name` None); `notes` tell how read.
 
+    `alone`: no other sheet of the file holds something.
+    """
+
+    file: Path
     name: str | None
     rows: list[Row]
     notes: list[str]
+    alone: bool = True
+
+    @property
+    def path(self) -> Path:
+        """The file as sentences call it: of several sheets with the sheet as a part of its name."""
+        return self.file if self.alone else self.file.with_name(f"{self.file.name}, sheet {self.name}")
+
+    @property
+    def called(self) -> str:
+        """What names the tests of a file or a sheet, if nothing in it does."""
+        return self.file.stem if self.alone else str(self.name)
 
 
 @dataclass(frozen=True)
@@ -55,7 +72,7 @@ class Cells:
 
 
 def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
-    """Cells of a CSV, TSV or XLSX file below its line of names; see `read_rows`."""
+    """Cells of a text file or a workbook below its line of names; see `read_rows`."""
     return build_cells(Path(path), *read_rows(path, sheet))
 
 
@@ -69,7 +86,7 @@ def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], li
 
 
 def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
-    """The sheets of a CSV, TSV or XLSX file, at least one; blank rows and those that begin with # are left out.
+    """The sheets of a text file or a workbook, at least one; blank rows and those that begin with # are left out.
 
     Raises NotTests, not InputError, for a file that is empty or holds no table.
     """
@@ -79,17 +96,16 @@ def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
     if path.stat().st_size > MOST_BYTES:
         raise InputError(f"{path}: larger than {MOST_BYTES // 10**6} MB; give the table of results alone.")
     start = path.read_bytes()[:8]
-    if start.startswith(b"PK"):
+    # An archive, or the container of Excel before 2007, in which later ones wrap a workbook with a password.
+    if start.startswith((b"PK", b"\xd0\xcf\x11\xe0")):
         sheets = _workbook(path, sheet)
-    # The container of Excel before 2007, in which later ones wrap a workbook with a password.
-    elif start.startswith(b"\xd0\xcf\x11\xe0"):
-        raise InputError(
-            f"{path}: an old or encrypted Excel file; save it as XLSX or CSV without a password."
-        )
     else:
-        sheets = [Sheet(None, *_text(path))]
-    sheets = [Sheet(one.name, _held(one.rows), one.notes) for one in sheets]
+        sheets = [Sheet(path, None, *_text(path))]
+    sheets = [replace(one, rows=_held(one.rows)) for one in sheets]
     sheets = [one for one in sheets if len(one.rows) > 1]
+    if len(sheets) > 1:
+        notes = [[note for note in one.notes if note != f"sheet {one.name}"] for one in sheets]
+        sheets = [replace(one, notes=told, alone=False) for one, told in zip(sheets, notes, strict=True)]
     if not sheets and not path.read_bytes().strip():
         raise NotTests(f"{path}: the file is empty; export it anew.")
     if not sheets:
@@ -106,6 +122,14 @@ def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:
 def _held(rows: list[Row]) -> list[Row]:
     """Rows that hold something, and are no remark."""
     rows = [(line, _trimmed(cells)) for line, cells in rows]
+    # A table may begin in the second column, below a title in the first one.
+    places = [[n for n, cell in enumerate(cells) if cell] for _, cells in rows]
+    first = min((filled[0] for filled in places if len(filled) > 1), default=0)
+    rows = [
+        (line, cells[min(first, *filled) :])
+        for (line, cells), filled in zip(rows, places, strict=True)
+        if filled
+    ]
     return [(line, cells) for line, cells in rows if cells and not _REMARK.match(_first(cells))]
 
 
@@ -133,7 +157,10 @@ def _drop_remarks(rows: list[Row], size: int, notes: list[str]) -> list[Row]:
 def _trimmed(cells: list[str]) -> list[str]:
     """Cells without needless blanks, up to the last that holds something, and with one kind of minus."""
     # Word processors write a minus sign or a dash for a hyphen; `float` takes neither.
-    cells = [re.sub(r"^[−–](?=[\d.,])", "-", " ".join(cell.split())) for cell in cells]
+    cells = [
+        cell if isinstance(cell, Number) else re.sub(r"^[−–](?=[\d.,])", "-", " ".join(cell.split()))
+        for cell in cells
+    ]
     filled = [place for place, cell in enumerate(cells) if cell]
     return cells[: filled[-1] + 1] if filled else []
 
@@ -219,68 +246,105 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
 
 
 def _workbook(path: Path, sheet: str | None) -> list[Sheet]:
-    """Sheets that are shown and hold something, or the one wanted.
+    """Sheets that are shown and hold something, or the one wanted, with the values that the spreadsheet stored.
 
-    Formulas give the value that the spreadsheet stored, and are not computed. Straight from openpyxl: pandas
-    would read a sheet of 16 384 columns to its end before a bound holds.
+    Nothing is evaluated, and no link to another workbook followed.
     """
-    import openpyxl
-
     try:
-        with zipfile.ZipFile(path) as archive:
-            unpacked = sum(part.file_size for part in archive.infolist())
-        if unpacked > MOST_UNPACKED:
-            raise InputError(f"{path}: unpacks to {unpacked // 10**6} MB; give the table of results alone.")
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of drop-down lists and the like, which openpyxl passes over
-            # Values as the spreadsheet stored them: nothing is evaluated, no link to another workbook followed.
-            book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
-            found = {name: _sheet_rows(book[name]) for name in book.sheetnames if sheet in (None, name)}
-            names = list(book.sheetnames)
-            hidden = {name for name in names if book[name].sheet_state != "visible"}
-            book.close()
+        found, hidden = (_xlsx if _is_xlsx(path) else _other_workbook)(path, sheet)
     except InputError:
         raise
     except Exception as error:  # a damaged file raises nearly anything
-        if _is_other_workbook(path):
-            raise InputError(
-                f"{path}: a workbook of another kind than XLSX; save it as XLSX or CSV."
-            ) from None
-        raise InputError(f"{path}: cannot be read as XLSX ({type(error).__name__}); save it anew.") from None
-    if sheet is not None and sheet not in names:
-        raise InputError(f"{path}: no sheet {sheet!r}; give one of {', '.join(names)}.")
-    filled = {name: rows for name, rows in found.items() if any(any(cells) for _, cells in rows)}
+        raise InputError(
+            f"{path}: cannot be read as a workbook ({type(error).__name__}), or has a password; save it as XLSX or CSV "
+            "without a password."
+        ) from None
+    if sheet is not None and sheet not in found:
+        raise InputError(f"{path}: no sheet {sheet!r}; give one of {', '.join(found)}.")
+    filled = {name: rows for name, (rows, _) in found.items() if any(any(cells) for _, cells in rows)}
     shown = [name for name in filled if name not in hidden] if sheet is None else [sheet]
-    left_out = [f"hidden sheet {name} not read" for name in filled if name not in shown]
+    left_out = [f"hidden sheet {name} not read" for name in filled if name not in (*shown, sheet)]
     return [
-        Sheet(name, rows, [f"sheet {name}", *left_out])
+        Sheet(path, name, rows, [f"sheet {name}", *(left_out if sheet is None else []), *found[name][1]])
         for name, rows in filled.items()
         if name in (shown or filled)
     ]
 
 
-def _is_other_workbook(path: Path) -> bool:
-    """Whether an archive holds an OpenDocument or a binary workbook."""
-    try:
-        with zipfile.ZipFile(path) as archive:
-            return not {"mimetype", "xl/workbook.bin"}.isdisjoint(archive.namelist())
-    except zipfile.BadZipFile:
+def _is_xlsx(path: Path) -> bool:
+    """Whether a file is an archive with a workbook of Excel 2007; refuses one that unpacks to too much."""
+    if not zipfile.is_zipfile(path):
         return False
+    with zipfile.ZipFile(path) as archive:
+        unpacked = sum(part.file_size for part in archive.infolist())
+        if unpacked > MOST_UNPACKED:
+            raise InputError(f"{path}: unpacks to {unpacked // 10**6} MB; give the table of results alone.")
+        return {"mimetype", "xl/workbook.bin"}.isdisjoint(archive.namelist())
 
 
-def _sheet_rows(sheet: object) -> list[Row]:
-    if not hasattr(sheet, "iter_rows"):  # a sheet that is only a chart
-        return []
+_Sheets = tuple[dict[str, tuple[list[Row], list[str]]], set[str]]  # rows and notes by sheet; which are hidden
+
+
+def _xlsx(path: Path, wanted: str | None) -> _Sheets:
+    """Sheets by openpyxl, which reads row by row: calamine takes room for each cell up to the last one, and aborts."""
+    import openpyxl
+
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # of drop-down lists and the like, which openpyxl passes over
+        book = openpyxl.load_workbook(path, read_only=True, data_only=True, keep_links=False)
+        # A sheet that is only a chart has no rows. Of a sheet that is not wanted only the name is.
+        sheets = {one.title: one if wanted in (None, one.title) else None for one in book.worksheets}
+        found = {
+            name: ([], []) if one is None else (_rows(one), _hidden_lines(one))
+            for name, one in sheets.items()
+        }
+        hidden = {one.title for one in book.worksheets if one.sheet_state != "visible"}
+        book.close()
+    return found, hidden
+
+
+def _rows(sheet: Any) -> list[Row]:
     # A format in a cell far away makes a sheet a million rows long; one row too many is enough to refuse it.
-    rows: Iterable[tuple[object, ...]] = sheet.iter_rows(
-        max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1, values_only=True
-    )
+    rows = sheet.iter_rows(max_row=MOST_ROWS + 2, max_col=MOST_COLUMNS + 1, values_only=True)
     return [(line, [_cell(value) for value in cells]) for line, cells in enumerate(rows, start=1)]
 
 
+def _hidden_lines(sheet: Any) -> list[str]:
+    """A note on the rows and columns of a sheet that are hidden, as by a filter."""
+    # openpyxl knows them only of a sheet that it holds whole.
+    with sheet._get_source() as file:
+        xml = file.read()
+    rows = [int(line) for line in re.findall(rb'<row\b(?=[^>]*\bhidden="(?:1|true)")[^>]*\br="(\d+)"', xml)]
+    columns = re.findall(rb'<col\b(?=[^>]*\bhidden="(?:1|true)")[^>]*\bmin="(\d+)"', xml)
+    named = [f"rows {_listed(rows)}"] * bool(rows) + [f"columns {_listed(map(int, columns))}"] * bool(columns)
+    return [f"hidden {' and '.join(named)} are read too; delete what shall not count"] if named else []
+
+
+def _listed(numbers: Iterable[int]) -> str:
+    texts = list(map(str, numbers))
+    return ", ".join(texts[:8]) + (", ..." if len(texts) > 8 else "")
+
+
+def _other_workbook(path: Path, wanted: str | None) -> _Sheets:
+    """Sheets of an ODS, XLS or XLSB file."""
+    import python_calamine
+
+    with python_calamine.load_workbook(path) as book:
+        metadata = [one for one in book.sheets_metadata if one.typ == python_calamine.SheetTypeEnum.WorkSheet]
+        found: dict[str, tuple[list[Row], list[str]]] = {}
+        for name in (one.name for one in metadata):
+            sheet = book.get_sheet_by_name(name) if wanted in (None, name) else None
+            if sheet is not None and (
+                sheet.total_height > 2 * MOST_ROWS or sheet.total_width > 4 * MOST_COLUMNS
+            ):
+                raise InputError(f"{path}: {TOO_MANY}")
+            cells = [] if sheet is None else sheet.to_python(skip_empty_area=False)
+            found[name] = [(line, [_cell(one) for one in row]) for line, row in enumerate(cells, start=1)], []
+        hidden = {one.name for one in metadata if one.visible != python_calamine.SheetVisibleEnum.Visible}
+    return found, hidden
+
+
 def _cell(value: object) -> str:
-    if isinstance(value, float):
-        return f"{value:.12g}"  # 4.2, where the file holds 4.2000000000000002
-    text = "" if value is None else str(value).strip()
-    # A number kept as text; `9,100` may group its digits.
-    return text.replace(",", ".") if re.fullmatch(r"[-−+]?\d+,(?!\d{3}$)\d+", text) else text
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return Number(value)
+    return "" if value is None else str(value).strip()

@@ -12,18 +12,22 @@ from asphalt_nscd.files.words import choice
 from asphalt_nscd.table_import.cells import Cells
 from asphalt_nscd.table_import.decimals import number
 from asphalt_nscd.table_import.heading import strip_conditions
-from asphalt_nscd.table_import.quantities import MEASURED, Column, derived, recognise, unit_in
+from asphalt_nscd.table_import.quantities import MEASURED, Meaning, derived, recognise, unit_in
+from asphalt_nscd.table_import.words import SAY
 
-Place = tuple[int, Column]  # of a column, and what it holds
-_ANGULAR = re.compile(r"omega|ω|angular|kreis|pulsation", re.IGNORECASE)
+Place = tuple[int, Meaning]  # of a column, and what it holds
 _LARGEST_RADIAN = 1.6  # of a phase; a larger one is in degrees
 _WARMEST = 60.0  # degC; three temperatures up to 60 F are 15 degC at most, and nobody's campaign
 _LEAST_TEMPERATURES = 3
 
 
-def name_with_unit(name: str, column: Column) -> str:
+def name_with_unit(name: str, column: Meaning) -> str:
     """Our name of a quantity with the unit that the user's column has: E_GPa."""
     return f"{name.rpartition('_')[0]}_{column.unit}" if column.unit else name
+
+
+def _is_angular(name: str) -> bool:
+    return any(word in name.casefold() for word in SAY["angular"])
 
 
 def column_cue(wanted: str, name: str) -> str:
@@ -51,7 +55,10 @@ def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Pl
             if re.fullmatch(re.escape(name) + r" \([^)]*\)", header)
         ]
         if len(places) != 1:
-            raise InputError(f"{cells.path}: no column {name!r}; its columns are {', '.join(cells.header)}.")
+            several = (
+                f"{len(places)} columns are called {name!r}; rename one" if places else f"no column {name!r}"
+            )
+            raise InputError(f"{cells.path}: {several}; its columns are {', '.join(cells.header)}.")
         if kind := derived(cells.header[places[0]]):
             raise InputError(
                 f"{cells.path}: {_named(wanted)}column {name!r} holds "
@@ -63,7 +70,7 @@ def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Pl
     return found
 
 
-def _require_unit(cells: Cells, place: int, wanted: str, column: Column) -> None:
+def _require_unit(cells: Cells, place: int, wanted: str, column: Meaning) -> None:
     """Refuse a unit that the name of the column contradicts."""
     name, units = cells.header[place], MEASURED[column.quantity][1]
     told = unit_in(strip_conditions(name))
@@ -99,7 +106,7 @@ def one_of(cells: Cells, name: str, places: list[Place]) -> tuple[Place, list[st
             else f"column {cells.header[place[0]]!r} is read; the same stands in {same}"
         )
     called = cells.header[place[0]]
-    if name == "frequency_Hz" and place[1].unit == "Hz" and _ANGULAR.search(called):
+    if name == "frequency_Hz" and place[1].unit == "Hz" and _is_angular(called):
         raise InputError(
             f"{cells.path}: column {called!r}: an angular frequency is in rad/s; name it f (Hz) or omega (rad/s)."
         )
@@ -117,7 +124,7 @@ def _agreeing(cells: Cells, name: str, places: list[Place]) -> Place:
     def coarseness(place: Place) -> tuple[bool, float]:
         """The least has our own unit, or else the most digits."""
         halves = [_value(row[place[0]], place[1])[1] for _, row in cells.rows]
-        return (place[1].factor, place[1].offset) != (1.0, 0.0), sum(halves)
+        return place[1].converts, sum(halves)
 
     best = min(known or places, key=coarseness) if MEASURED[name][1] else places[0]
     for other in places:
@@ -134,16 +141,15 @@ def _agreeing(cells: Cells, name: str, places: list[Place]) -> Place:
     return best
 
 
-def _value(text: str, column: Column) -> tuple[float, float]:
+def _value(cell: str, meaning: Meaning) -> tuple[float, float]:
     """Number of a cell in our unit, and half of its last digit; NaN for none, which agrees with nothing."""
-    plain = text.replace(",", ".").replace("−", "-")
-    value = number(plain, ".")
+    value = number(cell)
     if value is None:
         return float("nan"), 0.0
-    mantissa, _, exponent = plain.casefold().partition("e")
+    mantissa, _, exponent = cell.replace(",", ".").casefold().partition("e")
     # Clipped, because 10.0 ** 999999 overflows, and a cell may hold 1e-999999.
     digits = len(mantissa.partition(".")[2]) - int(np.clip(int(exponent or 0), -200, 200))
-    return value * column.factor + column.offset, 0.5 * 10.0**-digits * column.factor
+    return value * meaning.factor + meaning.offset, 0.5 * 10.0**-digits * meaning.factor
 
 
 def _contradiction(
@@ -164,19 +170,18 @@ def _contradiction(
     )
 
 
-def _assumed(cells: Cells, place: Place) -> tuple[Column, str]:
+def _assumed(cells: Cells, place: Place) -> tuple[Meaning, str]:
     """Unit of a column that does not say it, where its values leave one only; a modulus never does."""
     at, column = place
     name, quantity = cells.header[at], column.quantity
-    read = [number(row[at].replace(",", ".").replace("−", "-"), ".") for _, row in cells.rows]
-    values = {value for value in read if value is not None}
-    if quantity == "frequency_Hz" and not _ANGULAR.search(name):
-        return Column(quantity, "Hz"), "as a frequency has"
+    values = {value for _, row in cells.rows if (value := number(row[at])) is not None}
+    if quantity == "frequency_Hz" and not _is_angular(name):
+        return Meaning(quantity, "Hz"), "as a frequency has"
     if quantity == "phase_deg" and max(map(abs, values), default=0.0) > _LARGEST_RADIAN:
-        return Column(quantity, "deg"), "because no phase in rad is that large"
+        return Meaning(quantity, "deg"), "because no phase in rad is that large"
     warmest = max(values, default=_WARMEST + 1.0)
     if quantity == "temperature_C" and len(values) >= _LEAST_TEMPERATURES and warmest <= _WARMEST:
-        return Column(quantity, "C"), f"because {warmest:g} degF would be too cold for the warmest test"
+        return Meaning(quantity, "C"), f"because {warmest:g} degF would be too cold for the warmest test"
     stem, _, unit = quantity.rpartition("_")
     raise InputError(
         f"{cells.path}: column {name!r} does not say its unit; write it after the name, as in {stem} ({unit})."

@@ -17,12 +17,11 @@ NEARER = 0.5  # of that, at the other temperature
 def refuse_mislabelled(parts: Sequence[Part]) -> None:
     """Refuse an export whose moduli belong to the temperature that was not taken for it."""
     for part in parts:
-        if not part.contested:
+        own = list(_tests(part))
+        if not part.block.contested or not own:
             continue
-        others = [one for one in parts if _specimens(one).isdisjoint(_specimens(part))]
-        columns = part.read.table.columns
-        taken = float(columns.get("nominal_temperature_C", columns["temperature_C"])[0])
-        contested = float(part.contested)
+        others = [one for one in parts if set(one.specimens).isdisjoint(part.specimens)]
+        taken, contested = own[0][0], float(part.block.contested)
         off, other = _apart(part, others, taken), _apart(part, others, contested)
         if off is not None and other is not None and abs(off) > OFF and abs(other) < NEARER * abs(off):
             raise InputError(
@@ -32,21 +31,12 @@ def refuse_mislabelled(parts: Sequence[Part]) -> None:
             )
 
 
-def _specimens(part: Part) -> set[str]:
-    return set(part.read.table.columns["specimen"])
-
-
 def _tests(part: Part) -> Iterator[tuple[float, float, float]]:
-    """Temperature [degC], frequency [Hz] and |E*| [MPa] of each test; none where a cell is refused further on."""
-    columns = part.read.table.columns
-    temperature = columns.get("nominal_temperature_C", columns["temperature_C"])
-    for test in zip(temperature, columns["frequency_Hz"], columns.get("E_MPa", []), strict=False):
-        try:
-            t, f, modulus = map(float, test)
-        except ValueError:
-            continue
-        if modulus > 0.0:
-            yield t, f, modulus
+    """Temperature [degC], frequency [Hz] and ln |E*| of each test."""
+    table = part.read.table
+    target = "nominal_temperature_C" if "nominal_temperature_C" in table.columns else "temperature_C"
+    columns = (table.numbers_or_nan(name) for name in (target, "frequency_Hz", "E_MPa"))
+    yield from ((t, f, log(modulus)) for t, f, modulus in zip(*columns, strict=True) if modulus > 0.0)
 
 
 def _apart(part: Part, others: Sequence[Part], at: float) -> float | None:
@@ -55,7 +45,7 @@ def _apart(part: Part, others: Sequence[Part], at: float) -> float | None:
     for one in others:
         for t, f, modulus in _tests(one):
             if abs(t - at) <= FAR:
-                known.setdefault(f, []).append(log(modulus))
-    apart = [log(modulus) - median(known[f]) for _, f, modulus in _tests(part) if f in known]
+                known.setdefault(f, []).append(modulus)
+    apart = [modulus - median(known[f]) for _, f, modulus in _tests(part) if f in known]
     # The median: one odd frequency decides nothing.
     return median(apart) if apart else None

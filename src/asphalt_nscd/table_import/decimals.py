@@ -10,18 +10,35 @@ from asphalt_nscd.files.errors import InputError
 
 _COMMA = re.compile(r"[-+]?\d*,\d+([eE][-+]?\d+)?")
 _POINT = re.compile(r"[-+]?\d*\.\d*([eE][-+]?\d+)?")
-_ENGLISH = re.compile(
-    r"[-+]?\d{1,3}(?:,\d{3})+\.\d+"
-)  # which groups its digits, and cannot be read otherwise
+# Which groups its digits, and cannot be read otherwise.
+_ENGLISH = re.compile(r"[-+]?\d{1,3}(?:,\d{3})+\.\d+")
 # Groups are parted by comma, point, apostrophe, and blanks that do not break (U+00A0, U+202F).
 _GROUPED = re.compile(r"[-+]?\d{1,3}(?:[., '\u00a0\u202f]\d{3})+(?:[.,]\d+)?")
+
+
+class Number(str):
+    """A cell that a workbook keeps as a number: its text, for words and headings, and `value`, the number itself."""
+
+    value: float
+
+    def __new__(cls, value: float) -> Number:
+        """The cell of a number."""
+        whole = float(value).is_integer() and abs(value) < 1e15
+        # 4.2 in a heading, where the file holds 4.2000000000000002.
+        cell = super().__new__(cls, str(int(value)) if whole else f"{value:.12g}")
+        cell.value = float(value)
+        return cell
 
 
 def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
     """The decimal mark, `,` or `.`, which must be one throughout; groups as in `1 234` are refused."""
     # The first line of each mark, for the refusal names both.
     first: dict[str, tuple[int, str]] = {}
+    kept = False  # as numbers, which have no mark
     for line, text in numbers:
+        kept |= isinstance(text, Number)
+        if isinstance(text, Number):
+            continue
         if _ENGLISH.fullmatch(text):
             first.setdefault(".", (line, text))
             continue
@@ -34,11 +51,11 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
         for mark, pattern in ((",", _COMMA), (".", _POINT)):
             if pattern.fullmatch(text):
                 first.setdefault(mark, (line, text))
+    doubtful = next((one for one in first.values() if _GROUPED.fullmatch(one[1])), None)
+    if doubtful and kept and "," in first:
+        raise InputError(f"{where}, line {doubtful[0]}: {doubtful[1]!r} is text; enter it as a number.")
     if len(first) == 2:
         (comma_line, comma), (point_line, point) = first[","], first["."]
-        # A workbook keeps numbers without a mark; what has one was typed as text.
-        if ".xls" in where.casefold():
-            raise InputError(f"{where}, line {comma_line}: {comma!r} is text; enter it as a number.")
         raise InputError(
             f"{where}: {comma!r} (line {comma_line}) and {point!r} (line {point_line}) have different decimal "
             f"marks{_groups_note(comma, point)}; write all numbers with the same{_ungrouped(comma, point)}."
@@ -61,16 +78,13 @@ def _ungrouped(*texts: str) -> str:
     return " and without separators" if _groups_note(*texts) else ""
 
 
-def normalise_decimal(text: str, mark: str) -> str:
-    """A number with a decimal point and without groups, `5,558.0` as `5558.0`; other text as it is."""
-    if mark == ",":
-        return text.replace(",", ".")
-    return text.replace(",", "") if _ENGLISH.fullmatch(text) else text
-
-
-def number(text: str, mark: str) -> float | None:
-    """The number that a cell holds, read with the decimal mark `mark`; None if it holds none."""
+def number(cell: str, mark: str = "") -> float | None:
+    """The number that a cell holds, with this decimal mark or, without one, with either; None if it holds none."""
+    if isinstance(cell, Number):
+        return cell.value
+    if mark == "." and _ENGLISH.fullmatch(cell):
+        cell = cell.replace(",", "")
     try:
-        return plain_number(normalise_decimal(text, mark))
+        return plain_number(cell if mark == "." else cell.replace(",", ".").replace("−", "-"))
     except ValueError:
         return None

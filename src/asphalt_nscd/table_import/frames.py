@@ -12,6 +12,7 @@ import pandas as pd
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.table_import.decimals import Number
 from asphalt_nscd.table_import.understand import TEXTS, understand
 
 CALLED = "DataFrame (lines counted from 1)"  # where a refusal names the file
@@ -23,7 +24,7 @@ def frame_of(campaign: Campaign) -> pd.DataFrame:
     columns: dict[str, Any] = {}
     for name, cells in campaign.table.columns.items():
         if name in (*TEXTS, "record"):
-            columns[name] = cells
+            columns[name] = list(cells)
         else:
             columns[name] = campaign.table.numbers_or_nan(name)
     frame = pd.DataFrame(columns)
@@ -40,7 +41,7 @@ def campaign_of(
 ) -> Campaign:
     """The campaign in a data frame whose columns are named as a file's; the test type is else of `attrs` or bending."""
     header = [str(name) for name in frame.columns]
-    texts = [[_text(value) for value in frame[name]] for name in frame.columns]
+    texts = [[_cell(value) for value in frame[name]] for name in frame.columns]
     rows = [(line, list(cells)) for line, cells in enumerate(zip(*texts, strict=True), start=1)]
     kept = frame.attrs.get(SOURCE)
     # Records are files beside their table.
@@ -50,16 +51,15 @@ def campaign_of(
     read = understand(Cells(path, header, rows), chosen)
     notes = frame.attrs.get(NOTES) or [
         *read.notes,
-        *(f"{a} from column {b}" for a, b in read.sources.items()),
+        *(f"{name} from column {column.source}" for name, column in read.read.items()),
     ]
     return Campaign(read.table, (), test_type or frame.attrs.get(TEST_TYPE, "bending"), tuple(notes))
 
 
-def _text(value: Any) -> str:
-    """A value as a CSV file would have it; nothing for what is missing."""
-    if value is None or (isinstance(value, float | np.floating) and np.isnan(value)):
+def _cell(value: Any) -> str:
+    """A value as a workbook has it; nothing for what is missing."""
+    if value is None or value != value:
         return ""
-    if isinstance(value, float | np.floating):
-        # The shortest text that gives the same number back.
-        return repr(float(value))
+    if isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool):
+        return Number(float(value))
     return " ".join(str(value).split())

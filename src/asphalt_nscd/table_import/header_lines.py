@@ -14,6 +14,7 @@ from asphalt_nscd.table_import.heading import (
     FAHRENHEIT,
     HERTZ,
     KEYS,
+    LABELS,
     SPECIMEN,
     condition,
     known,
@@ -119,8 +120,10 @@ def sections(rows: list[Row]) -> list[list[Row]]:
     named = [n for n, (_, cells) in enumerate(rows) if _names(cells)]
     for n in named[1:]:
         above = n
-        while above > starts[-1] and told_above([rows[above - 1]])[1]:
-            above -= 1
+        for start in range(max(n - MOST_LINES, starts[-1] + 1), n):
+            if told_above([rows[start]])[1] and not any(map(NUMBER.fullmatch, rows[start + 1][1])):
+                above = start
+                break
         if above < n and (above - 1) not in named:
             starts.append(above)
     if len(starts) > 1 and named and not told_above(rows[: named[0]])[0]:
@@ -153,14 +156,37 @@ def _names(cells: list[str]) -> bool:
     return len(found) > 1 and not any(NUMBER.fullmatch(cell) for cell in cells)
 
 
+def _with_keys_below(names: list[str], cells: list[str]) -> list[str]:
+    """Names of columns, with those of temperature, frequency and specimen that stand a line deeper."""
+    if not _results(names):
+        return names
+    first = next(n for n, name in enumerate(names) if name and read_heading(name).is_result)
+    deeper = [
+        not name and (column := known(cell)) is not None and column.quantity in (*KEYS, *LABELS)
+        for name, cell in zip(names[:first], cells, strict=False)
+    ]
+    return [cells[n] if n < len(deeper) and deeper[n] else name for n, name in enumerate(names)]
+
+
+def _results(cells: list[str]) -> list[str]:
+    """The cells of a line that name results; none of a line that holds a number."""
+    return (
+        [] if any(map(NUMBER.fullmatch, cells)) else [cell for cell in cells if read_heading(cell).is_result]
+    )
+
+
 def _stack(rows: list[Row]) -> _Stack | None:
     """The lines that name columns; None where no line names quantities."""
     at = next((n for n, (_, cells) in enumerate(rows[:MOST_ABOVE]) if _names(cells)), None)
     if at is None:
         return None
+    if not _results(rows[at][1]) and at + 1 < len(rows) and len(_results(rows[at + 1][1])) > 1:
+        at += 1  # temperature and frequency go down from the line above
     names = rows[at][1]
     first, last = at, at + 1
     below: list[list[str]] = []
+    if last < len(rows):
+        names = _with_keys_below(names, rows[last][1])
     while last < len(rows) and len(below) < MOST_LINES and _labels_below(rows[last][1], names):
         below.append(rows[last][1])
         last += 1
@@ -170,9 +196,8 @@ def _stack(rows: list[Row]) -> _Stack | None:
     for cells in below:
         row = cells if cells is below[-1] else _filled(cells, size)
         for n, text in enumerate([*row, *[""] * (size - len(row))]):
-            said[n] |= (
-                (condition(text) or {SPECIMEN: text}) if text and not _is_unit_of(text, filled[n]) else {}
-            )
+            named = text == filled[n] or _is_unit_of(text, filled[n])
+            said[n] |= (condition(text) or {SPECIMEN: text}) if text and not named else {}
     while first and at - first < MOST_LINES:
         above = rows[first - 1][1]
         conditions = _labels_above(above, filled)
@@ -204,12 +229,15 @@ def _labels_below(cells: list[str], names: list[str]) -> bool:
     first = next((n for n, one in enumerate(held_by) if one.is_result), 0)
     filled = [(n, cell) for n, cell in enumerate(cells) if cell]
     carried = _filled(names, len(cells))
-    if len(filled) < 2 or all(_is_unit_of(cell, carried[n]) for n, cell in filled):
+    units = [_is_unit_of(cell, carried[n]) for n, cell in filled]
+    # Three units make a line of units, whatever stands beside them.
+    if len(filled) < 2 or all(units) or (sum(units) > 2 and any(n in keys for n, _ in filled)):
         return False
-    if any(n in keys and not is_unit(cell) for n, cell in filled):
+    if any(n in keys and not is_unit(cell) and cell != names[n] for n, cell in filled):
         return False
     return all(
         _is_unit_of(cell, carried[n])
+        or (n in keys and cell == names[n])
         or condition(cell)
         or (
             n >= first and len(cell) <= LONGEST_LABEL and (has_axis if NUMBER.fullmatch(cell) else bool(keys))
@@ -243,7 +271,7 @@ def _labels_above(cells: list[str], names: list[str]) -> list[dict[str, str]] | 
             out.append(out[-1] if out else {})
         elif found := condition(cell):
             out.append(found)
-        elif column and not axis and column.unit in _AXES:
+        elif column and not axis and column.unit in _AXES and below:
             axis = _AXES[column.unit]  # `Temperature (°C)` in front of 4, 20, 37
             out.append({})
         elif axis and NUMBER.fullmatch(cell):

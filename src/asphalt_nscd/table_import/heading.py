@@ -11,7 +11,9 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.table_import.quantities import LONGEST_NAME, Column, recognise
+from asphalt_nscd.table_import.quantities import LONGEST_NAME, Meaning, recognise
+from asphalt_nscd.table_import.words import MEAN as MEAN_WORD
+from asphalt_nscd.table_import.words import SAY, SPREAD
 
 SPECIMEN, CELSIUS, FAHRENHEIT, HERTZ = "specimen", "T (°C)", "T (°F)", "f (Hz)"
 MEAN = "Mean"  # in place of a specimen
@@ -26,24 +28,13 @@ _TEMPERATURE = re.compile(
     + r"(?<![\d.,])(?P<at>[-−]?\d+(?:[.,]\d+)?)\s*(?:[°º]\s*|deg(?:rees?)?\.?\s?)?(?P<unit>[CF])(?![\w*'°])"
 )
 _FREQUENCY = re.compile(_BEFORE + r"(?<![\d.,])(?P<at>\d+(?:[.,]\d+)?)\s*(?P<unit>Hz)\b", re.IGNORECASE)
-_SPECIMEN_WORD = (
-    r"(?:specimens?|spec|samples?|cores?|beams?|replicates?|reps?|éprouvettes?|ép|ep|éch|prüfkörper|probekörper|proben?|pk|"
-    r"carottes?|bohrkerne?|muestras?|probetas?|provin[oi])"
-)
+_SPECIMEN_WORD = f"(?:{'|'.join(SAY['specimen'])})"
 _SPECIMEN = re.compile(
     rf"(?:\b(?:for|of|de|von)\s+)?(?P<at>\b{_SPECIMEN_WORD}\b\.?\s*(?:no\b\.?|nr\b\.?|n[°º]|#)?\s*[:.]?[\s_-]*"
     r"(?:[A-Za-z]{0,3}[-_]?\d+[A-Za-z]?|[A-Z]))(?!\w)",
     re.IGNORECASE,
 )
 _TRAILING = re.compile(r"(?P<name>.*\S)(?:[\s_.#-]*(?P<at>\d{1,3})|[\s_-]+(?P<letter>[A-Z]\d{0,3}))")
-_MEAN = re.compile(
-    r"(?<!\w)(?:mean|average|avg|moyenne?|moy|mittelwert|mittel|media|promedio)\b\.?", re.IGNORECASE
-)
-_SPREAD = re.compile(
-    r"(?<!\w)(?:std|s\.?d|st\.?\s?dev|standard deviation|c\.?o\.?v|cv|coefficient of variation|[ée]cart[- ]type|"
-    r"standardabweichung|variationskoeffizient)\b",
-    re.IGNORECASE,
-)
 _UNIT_AT_END = re.compile(r"(?P<stem>.*?)\s*(?P<unit>[(\[{][^()\[\]{}]*[)\]}])\s*")
 
 
@@ -59,7 +50,7 @@ class Heading:
     left_out: bool = False
 
     @property
-    def column(self) -> Column | None:
+    def column(self) -> Meaning | None:
         """The quantity it names; None if none is known, or with a unit of another."""
         return known(self.name)
 
@@ -70,9 +61,9 @@ class Heading:
         return column is not None and column.quantity not in (*KEYS, *LABELS)
 
 
-# Each cell of a file is asked several times.
+# Each cell of a file is understood once, and asked for several times.
 @lru_cache(maxsize=2**14)
-def known(name: str) -> Column | None:
+def known(name: str) -> Meaning | None:
     """The column that a name stands for; None also where it has a unit of another quantity."""
     try:
         return recognise(name) if name else None
@@ -80,13 +71,14 @@ def known(name: str) -> Column | None:
         return None
 
 
+@lru_cache(maxsize=2**14)
 def read_heading(text: str) -> Heading:
     """Name and conditions in the text of one heading cell."""
     # A name known as it stands holds no condition: `E2` is the loss modulus, and no second specimen.
     if len(text) > LONGEST_NAME or known(text) is not None:
         return Heading(text)
-    if _SPREAD.search(text):
-        stem = _SPREAD.sub(" ", text)
+    if SPREAD.search(text):
+        stem = SPREAD.sub(" ", text)
         of_result = any(Heading(_tidy(part)).is_result for part in (stem, re.sub(r"[(\[].*", "", stem)))
         return Heading(text, left_out=of_result)
     at: dict[str, str] = {}
@@ -127,7 +119,7 @@ def _taken(text: str, at: dict[str, str]) -> str:
         key = {"C": CELSIUS, "F": FAHRENHEIT, "": SPECIMEN}.get(unit, HERTZ)
         at[key] = found["at"].strip().replace("−", "-")
         text = f"{text[: found.start()]} {text[found.end() :]}"
-    if SPECIMEN not in at and (found := _MEAN.search(text)):
+    if SPECIMEN not in at and (found := MEAN_WORD.search(text)):
         at[SPECIMEN] = MEAN
         text = f"{text[: found.start()]} {text[found.end() :]}"
     return text
@@ -140,4 +132,4 @@ def _tidy(text: str) -> str:
 
 def is_spread(label: str) -> bool:
     """Whether the label in place of a specimen says that a column holds deviations of others."""
-    return bool(_SPREAD.match(label))
+    return bool(SPREAD.match(label))

@@ -3,58 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.table_import.cells import Cells, Row
+from asphalt_nscd.table_import.blocks import Block
+from asphalt_nscd.table_import.cells import Cells, Row, Sheet
 from asphalt_nscd.table_import.decimals import decimal_mark, match_decimal_mark
+from asphalt_nscd.table_import.header_lines import require_rows
 from asphalt_nscd.table_import.heading import known
 from asphalt_nscd.table_import.names import celsius, file_label, specimen_of
-from asphalt_nscd.table_import.quantities import ABSENT, Column, unit_in
+from asphalt_nscd.table_import.quantities import Meaning, unit_in
 from asphalt_nscd.table_import.targets import FAR, Header, decided, median_reading
+from asphalt_nscd.table_import.words import ABSENT, WORDS
 
 # A bare number is a frequency only where the label in front says so: `Frequency (Hz), 25, 10`.
 _HERTZ = re.compile(r"(\d+(?:[.,]\d+)?)\s*(Hz|rad/s)?", re.IGNORECASE)
-_IDENTIFICATION = (
-    "identification",
-    "specimen identification",
-    "specimen id",
-    "specimen name",
-    "specimen",
-    "sample id",
-)
-_TARGET = ("target test temperature", "target temperature", "set temperature", "nominal temperature")
-_CONSTANT = ("test temperature", "temperature", "chamber temperature")
+_IDENTIFICATION, _TARGET, _CONSTANT, _COMMENTS, _DATE = WORDS["export"].values()
 _NEEDED = {"E_MPa": "moduli", "phase_deg": "phases"}
-_COMMENTS = ("comments", "comment", "remarks")
-_DATE = (
-    "test date and time",
-    "date and time of test",
-    "date and time",
-    "test date",
-    "date of test",
-    "date",
-    "prüfdatum",
-    "date d'essai",
-)
-
-
-@dataclass(frozen=True)
-class Block:
-    """The tests of one specimen at one temperature, as a table with one row for each test.
-
-    `repeated`: the operator marked it as a repetition. `tested`: date, as the header has it. `contested`: the
-    temperature [degC] that its name or header says beside the one taken. `unnamed`: no header names the specimen, and
-    the file's name says no temperature, so that it may be that of a test.
-    """
-
-    cells: Cells
-    repeated: bool = False
-    tested: str = ""
-    contested: str = ""
-    unnamed: bool = False
 
 
 @dataclass
@@ -83,8 +50,24 @@ class _Header:
         return next(((name, self.values[name]) for name in names if self.values.get(name)), None)
 
 
-def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[Block]:
-    """Blocks of results in a machine's export, empty if it is none; `called` is the specimen if no header names it."""
+def matches(sheets: Sequence[Sheet]) -> bool:
+    """Whether a sheet is an export: a line of frequencies, results below a header, or a header that lacks them."""
+    if len(sheets) > 1:
+        return False
+    header, rows = _Header(), sheets[0].rows
+    for at, (_, cells) in enumerate(rows):
+        if _frequencies(cells) or _lists(header, cells, rows[at:]):
+            return True
+        if not _names_columns(cells):
+            header.take(cells)
+    return bool(header.first(_IDENTIFICATION) and header.first(_TARGET))
+
+
+def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
+    """Blocks of results in a machine's export; the file is the specimen if no header names it."""
+    sheet = sheets[0]
+    path, rows, notes, called = sheet.path, sheet.rows, sheet.notes, sheet.called
+    require_rows(path, rows)
     header, found, at = _Header(), [], 0
     several = sum(bool(_frequencies(cells)) or _names_columns(cells) for _, cells in rows) > 1
     while at < len(rows):
@@ -97,11 +80,7 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
             table = _turned(path, line, cells, taken, said)
             found.append(_result_block(path, header, table, said, called, several))
             at += 1 + len(taken)
-        elif (
-            _names_columns(cells)
-            and header.first((*_IDENTIFICATION, *_TARGET))
-            and _one_target(cells, rows[at:])
-        ):
+        elif _lists(header, cells, rows[at:]):
             table = _listed(path, cells, rows[at + 1 :])
             found.append(_result_block(path, header, table, notes, called, several))
             at += 1 + len(table.rows)
@@ -109,7 +88,7 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
             if not _names_columns(cells):
                 header.take(cells)
             at += 1
-    if not found and header.first(_IDENTIFICATION) and header.first(_TARGET):
+    if not found:
         for line, cells in rows:
             # `0,1 Hz` between commas has become two cells, one of which is no frequency.
             if sum("hz" in cell.casefold() for cell in cells) > 1:
@@ -123,6 +102,15 @@ def blocks(path: Path, rows: list[Row], notes: list[str], called: str) -> list[B
             "write a line such as `,25 Hz,10 Hz,1 Hz` above the moduli."
         )
     return found
+
+
+def _lists(header: _Header, cells: list[str], rows: list[Row]) -> bool:
+    """Whether a line names the columns of an export's results, of one specimen at one temperature."""
+    return (
+        _names_columns(cells)
+        and bool(header.first((*_IDENTIFICATION, *_TARGET)))
+        and _one_target(cells, rows)
+    )
 
 
 def _frequencies(cells: list[str]) -> list[str]:
@@ -298,10 +286,10 @@ def _result_block(
     day, time = header.first(_DATE), header.first(("test time", "time"))
     when = " ".join(said[1] for said in (day, time) if said) if day else ""
     unnamed = identified is None and name.temperature is None
-    return Block(cells, repeated, when, "" if target is None else target.contested, unnamed)
+    return Block(cells, True, repeated, when, "" if target is None else target.contested, unnamed)
 
 
-def _target(path: Path, header: _Header, reading: Column | None) -> Header | None:
+def _target(path: Path, header: _Header, reading: Meaning | None) -> Header | None:
     """Target temperature as the header has it; without a unit it is in that of the measured one, or else in degC."""
     # The set value before a reading: an isotherm has one set value, and readings wander about it.
     found = header.first(_TARGET) or header.first(_CONSTANT)

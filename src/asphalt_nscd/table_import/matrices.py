@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.blocks import Block
 from asphalt_nscd.table_import.cells import Cells, Row, Sheet
 from asphalt_nscd.table_import.decimals import match_decimal_mark
 from asphalt_nscd.table_import.header_lines import NUMBER, told_above
 from asphalt_nscd.table_import.heading import KEYS, SPECIMEN, Heading, condition, known, read_heading
-from asphalt_nscd.table_import.sheets import OF_OTHERS
+from asphalt_nscd.table_import.words import ABSENT, COMPUTED_SHEET
 
-_ABSENT = ("", "-", "--", "–", "n/a", "na", "#n/a")
 _ABOVE = 4  # lines above a matrix that say what it is
 _AXIS_UNIT = re.compile(r"([-−+]?\d+(?:[.,]\d+)?)\s*(Hz|(?:[°º]\s*|deg\.?\s*)?[CF])", re.IGNORECASE)
 _NAMES = {"Hz": "f (Hz)", "C": "T (°C)", "F": "T (°F)"}
@@ -42,17 +41,24 @@ class _Axis:
         return "" if column is None else column.quantity
 
 
-def matrix_cells(path: Path, sheets: Sequence[Sheet], notes: list[str]) -> Cells | None:
-    """The tests of all matrices in a file, one row for each; None if it holds no matrix."""
+def matches(sheets: Sequence[Sheet]) -> bool:
+    """Whether one of the sheets holds a matrix; |E*| may stand on one and the phase on another."""
+    return any(found for sheet in sheets for found, _, _ in _matrices(sheet.rows, sheet.called))
+
+
+def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
+    """The tests of all matrices in a file, one row for each."""
+    path = sheets[0].file
+    notes = list(dict.fromkeys(note for sheet in sheets for note in sheet.notes))
     values: list[_Value] = []
     headings: dict[str, str] = {}
     axes: set[tuple[str, str]] = set()
     for sheet in sheets:
-        called = "" if sheet.name is None or len(sheets) == 1 else sheet.name
-        matrices = list(_matrices(path, sheet.rows, called))
+        called = "" if sheet.alone else sheet.called
+        matrices = list(_matrices(sheet.rows, called))
         # A sheet with all quantities of its tests is a specimen's.
         whole = len({value.quantity for found, _, _ in matrices for value in found}) > 1
-        if whole and called and OF_OTHERS.match(called):
+        if whole and called and COMPUTED_SHEET.match(called):
             notes.append(f"skipped sheet {called}, computed of others")
             continue
         for found, axis, named in matrices:
@@ -65,8 +71,6 @@ def matrix_cells(path: Path, sheets: Sequence[Sheet], notes: list[str]) -> Cells
                     raise InputError(
                         f"{path}: {headings[quantity]!r} and {name!r} stand above two matrices; give all in one unit."
                     )
-    if not values:
-        return None
     if len(axes) > 1:
         raise InputError(
             f"{path}: the matrices have {_listed(axes)} along their sides; give all in one unit."
@@ -97,16 +101,14 @@ def matrix_cells(path: Path, sheets: Sequence[Sheet], notes: list[str]) -> Cells
     notes.append(
         f"matrices of {' and '.join(map(repr, headings.values()))} over {temperature} and {frequency}"
     )
-    return Cells(path, header, rows, list(notes))
+    return [Block(Cells(path, header, rows, notes))]
 
 
 def _listed(axes: Iterable[tuple[str, str]]) -> str:
     return " and ".join(sorted({name for axis in axes for name in axis}))
 
 
-def _matrices(
-    path: Path, rows: list[Row], called: str
-) -> Iterable[tuple[list[_Value], tuple[str, str], dict[str, str]]]:
+def _matrices(rows: list[Row], called: str) -> Iterable[tuple[list[_Value], tuple[str, str], dict[str, str]]]:
     """Values, names of both axes and headings by quantity of each matrix in the rows of a sheet."""
     at, end, specimen = 0, 0, condition(called).get(SPECIMEN, "")
     title = read_heading(called)
@@ -135,7 +137,7 @@ def _matrices(
             for column, text in enumerate(across.texts, start=place):
                 current = names.get(column, current)
                 value = row[column] if column < len(row) else ""
-                if not text or value.casefold() in _ABSENT or current.column is None:
+                if not text or value.casefold() in ABSENT or current.column is None:
                     continue
                 both = (text, down.texts[n]) if turned else (down.texts[n], text)
                 key = (current.at.get(SPECIMEN, specimen), _number(both[0]), _number(both[1]))
@@ -164,7 +166,7 @@ def _height(rows: list[Row], at: int) -> int:
             return 0
         if len(row) > len(head) or not _is_value(row[place - 1] if len(row) >= place else ""):
             break
-        if not body or not all(NUMBER.fullmatch(cell) or cell.casefold() in _ABSENT for cell in body):
+        if not body or not all(NUMBER.fullmatch(cell) or cell.casefold() in ABSENT for cell in body):
             break
         down.append(_number(_bare(row[place - 1])))
     # An axis repeats no value, unless specimens stand in front of it.

@@ -11,135 +11,44 @@ from functools import lru_cache
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.units import MEGAPASCAL
+from asphalt_nscd.table_import.words import SAY, WORDS
 
 # Spellings as `_spelled` leaves them: factor and offset that lead to the unit of our tables.
-_CELSIUS = {"C": (1.0, 0.0), "K": (1.0, -273.15), "F": (5 / 9, -160 / 9)}
-_HERTZ = {"Hz": (1.0, 0.0), "rad/s": (0.5 / math.pi, 0.0)}
-_MEGAPASCAL = {unit: (factor, 0.0) for unit, factor in MEGAPASCAL.items()}
-_DEGREE = {"deg": (1.0, 0.0), "rad": (180 / math.pi, 0.0), "mrad": (0.18 / math.pi, 0.0)}
-_NEWTON = {"N": (1.0, 0.0), "kN": (1e3, 0.0)}
-_METRE = {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "um": (1e-6, 0.0)}
-_MILLIMETRE = {"m": (1e3, 0.0), "mm": (1.0, 0.0), "um": (1e-3, 0.0)}
-_PERCENT = {"%": (1.0, 0.0), "percent": (1.0, 0.0)}
-_NUMBER = {"": (1.0, 0.0)}
+_UNITS_OF: dict[str, dict[str, tuple[float, float]]] = {
+    "temperature": {"C": (1.0, 0.0), "K": (1.0, -273.15), "F": (5 / 9, -160 / 9)},
+    "frequency": {"Hz": (1.0, 0.0), "rad/s": (0.5 / math.pi, 0.0)},
+    "modulus": {unit: (factor, 0.0) for unit, factor in MEGAPASCAL.items()},
+    "angle": {"deg": (1.0, 0.0), "rad": (180 / math.pi, 0.0), "mrad": (0.18 / math.pi, 0.0)},
+    "force": {"N": (1.0, 0.0), "kN": (1e3, 0.0)},
+    "length": {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "um": (1e-6, 0.0)},
+    "sieve": {"m": (1e3, 0.0), "mm": (1.0, 0.0), "um": (1e-3, 0.0)},
+    "percent": {"%": (1.0, 0.0), "percent": (1.0, 0.0)},
+    "time": {"s": (1.0, 0.0)},
+    "ratio": dict.fromkeys(("", "-", "1"), (1.0, 0.0)),
+    "number": {"": (1.0, 0.0)},
+    "": {},
+}
+Known = dict[str, tuple[str, dict[str, tuple[float, float]]]]
 
-# Column of our tables: names that people give it, and units. Names of one letter differ by case.
-MEASURED: dict[str, tuple[str, dict[str, tuple[float, float]]]] = {
-    "specimen": (
-        "specimen sample specimenid sampleid specimenno sampleno éprouvette prüfkörper probekörper probe "
-        "proben core beam cylinder puck carotte bohrkern probeta muestra provino corpodeprova",
-        {},
-    ),
-    "replicate": ("replicate rep repeat", {}),
-    "mix": (
-        "mix mixture mixtype mixdesign jobmix enrobé mélange mischgut mischgutsorte asphaltsorte mezcla miscela",
-        {},
-    ),
-    "origin": ("origin", {}),
-    "nominal_temperature_C": (
-        "targettemperature targettesttemperature settemperature nominaltemperature solltemperatur",
-        _CELSIUS,
-    ),
-    "temperature_C": (
-        "T temp temperature averagetemperature temperatur prüftemperatur prüftemp temperatura temperatuur θ",
-        _CELSIUS,
-    ),
-    "nominal_frequency_Hz": ("targetfrequency setfrequency nominalfrequency sollfrequenz", _HERTZ),
-    "frequency_Hz": (
-        "f freq frequency loadingfrequency fréquence frequenz prüffrequenz belastungsfrequenz frec frecuencia "
-        "frequenza frequência omega ω angularfrequency kreisfrequenz pulsation",
-        _HERTZ,
-    ),
-    "E_MPa": (
-        "E Estar modulus dynamicmodulus dynmodulus complexmodulus stiffness stiffnessmodulus norm norme magnitude "
-        "absolutevalue module modulecomplexe modulerigidité rigidité steifigkeit steifigkeitsmodul modul emodul "
-        "komplexermodul komplexenmoduls komplexeremodul dynamischermodul dynamischeremodul absoluteremodul betrag "
-        "absolutwert módulodinámico módulocomplejo módulocomplexo rigidez modulocomplesso modulodinamico rigidezza "
-        "stijfheid",
-        _MEGAPASCAL,
-    ),
-    "E1_MPa": (
-        "storagemodulus realpart partieréelle speichermodul realteil módulodealmacenamiento",
-        _MEGAPASCAL,
-    ),
-    "E2_MPa": (
-        "lossmodulus imaginarypart partieimaginaire verlustmodul imaginärteil módulodepérdida",
-        _MEGAPASCAL,
-    ),
-    "tan_delta": (
-        "tandelta tanδ tanphi tanφ tanϕ losstangent lossfactor verlustfaktor tangentedelta",
-        dict.fromkeys(("", "-", "1"), (1.0, 0.0)),
-    ),
-    "phase_deg": (
-        "phi φ ϕ delta δ phase phaseangle phaselag phaseshift phangle lossangle angle anglephase déphasage "
-        "phasenwinkel phasenverschiebung phasenverschiebungswinkel verlustwinkel ángulofase desfase desfasaje "
-        "desfasagem angolofase sfasamento",
-        _DEGREE,
-    ),
-    "F0_N": ("F F0 force forceamplitude", _NEWTON),
-    "z0_m": ("z z0 displacement displacementamplitude deflection amplitude", _METRE),
-    "psi_deg": ("psi ψ", _DEGREE),
-    "amplitude_m": ("", _METRE),
-    "order": ("order", _NUMBER),
-    "cycles": ("cycles loadcycles", _NUMBER),
-    "time_step_s": ("", {"s": (1.0, 0.0)}),
-    "microstrain": ("microstrain averagemicrostrain peaktopeakmicrostrain", _NUMBER),
-    "load_drift_percent": ("loaddrift", _PERCENT),
-    "load_standard_error_percent": ("loadstandarderror", _PERCENT),
-    "deformation_drift_percent": ("deformationdrift averagedeformationdrift", _PERCENT),
-    "deformation_standard_error_percent": (
-        "deformationstandarderror averagedeformationstandarderror",
-        _PERCENT,
-    ),
-    "deformation_uniformity_percent": ("deformationuniformity", _PERCENT),
-    "phase_uniformity_deg": ("phaseuniformity phaseangleuniformity", _DEGREE),
-}
-SIEVES = {
-    "diameter_mm": (
-        "d D diameter sieve sievesize size sieveopening opening siebweite maschenweite tamis",
-        _MILLIMETRE,
-    ),
-    "passing_percent": ("passing percentpassing masspassing passant durchgang siebdurchgang", _PERCENT),
-}
-QUALITY = (
-    "load_drift_percent",
-    "load_standard_error_percent",
-    "deformation_drift_percent",
-    "deformation_standard_error_percent",
-    "deformation_uniformity_percent",
-    "phase_uniformity_deg",
-)
-# Cells without a value, in small letters; those with # are what spreadsheets write for an error.
-ABSENT = (
-    *("", "-", "--", "---", "–", "—", "na", "n/a", "n.a.", "nan", "none", "null", "k.a.", "n.b."),
-    *(
-        "#n/a",
-        "#na",
-        "#nv",
-        "#div/0!",
-        "#value!",
-        "#valeur!",
-        "#wert!",
-        "#ref!",
-        "#bezug!",
-        "#num!",
-        "#zahl!",
-    ),
-)
+
+def _known(quantities: dict[str, dict[str, str]]) -> Known:
+    """Names that people give each of our columns, and the units that it may have."""
+    return {name: (one.get("names", ""), _UNITS_OF[one.get("kind", "")]) for name, one in quantities.items()}
+
+
+MEASURED, SIEVES = _known(WORDS["quantity"]), _known(WORDS["sieve"])
+QUALITY = tuple(name for name in MEASURED if re.search("drift|standard_error|uniformity", name))
 LONGEST_NAME = 200  # characters; what is longer names no column, and would be searched for long
-# Words that a name may carry beside that of its quantity.
-_BESIDE = frozenset(
-    "of the du de des d la le l der di del test testing tested sollicitation essai mesuré measured "
-    "gemessen actual ist no nr n # id name nom number nummer num label code".split()
-)
+_BESIDE = frozenset(SAY["nothing"])  # words that a name may carry beside that of its quantity
+_SPELLINGS = {word: unit for unit, words in WORDS["unit"].items() for word in words.split()}
 _PRIMES = str.maketrans({**dict.fromkeys("’′´", "'"), **dict.fromkeys("”″", '"')})
 _PART = re.compile(r"E[\s_]*(1|2|'|''|\")")  # of E*, in French and in English
 _UNITS = {name for _, units in (MEASURED | SIEVES).values() for name in units}
 
 
 @dataclass(frozen=True)
-class Column:
-    """What a column holds: number * factor + offset in our unit.
+class Meaning:
+    """What a heading says that its column holds: number * factor + offset in our unit.
 
     `quantity` is our column; `unit` is as the header says it: empty for text, None where the header says none.
     """
@@ -149,33 +58,41 @@ class Column:
     factor: float = 1.0
     offset: float = 0.0
 
+    @property
+    def converts(self) -> bool:
+        """Whether the unit is another than ours."""
+        return (self.factor, self.offset) != (1.0, 0.0)
 
-def recognise(header: str, known: dict = MEASURED) -> Column | None:
+
+def recognise(header: str, known: dict = MEASURED) -> Meaning | None:
     """The column that a name stands for; None if it is none of those known. Refuses another quantity's unit."""
     if len(header) > LONGEST_NAME:
         return None
     if header in known:  # one of ours
         units = known[header][1]
-        return Column(header, header.rpartition("_")[2] if units and units is not _NUMBER else "")
+        return Meaning(
+            header, header.rpartition("_")[2] if units and units is not _UNITS_OF["number"] else ""
+        )
     header = re.sub(r"\btan\s*[(\[]([^)\]]*)[)\]]", r"tan \1", header)  # no unit stands in these brackets
     foreign = None
     for stem, unit in _splits(header):
-        quantity = _quantity(stem, known, qualified=unit in _CELSIUS)
+        quantity = _quantity(stem, known, qualified=unit in _UNITS_OF["temperature"])
         if quantity is None:
             continue
         units = known[quantity][1]
         if not units and not unit:
-            return Column(quantity, "")
+            return Meaning(quantity, "")
         if unit in units:
-            return Column(quantity, unit, *units[unit])
+            return Meaning(quantity, unit, *units[unit])
         if units and not unit:
-            return Column(quantity, None)
+            return Meaning(quantity, None)
         # Refused only after all ways to read the name: another may give a unit that the quantity has.
         foreign = foreign or (quantity, unit)
     if foreign:
         quantity, unit = foreign
         allowed = ", ".join(known[quantity][1])
-        raise InputError(f"column {header!r}: {unit!r} is not a unit of {quantity}; give one of {allowed}.")
+        mend = f"give one of {allowed}" if allowed else "write what stands in brackets without them"
+        raise InputError(f"column {header!r}: {unit!r} is not a unit of {quantity}; {mend}.")
     return None
 
 
@@ -183,9 +100,7 @@ def derived(header: str) -> str:
     """What a column holds in place of a measured quantity: "logarithm", "reduced" to one temperature, else empty."""
     if re.match(r"\W*(?:log|lg|ln)(?:10)?(?![a-z])", header, re.IGNORECASE):
         return "logarithm"
-    return (
-        "reduced" if re.search(r"reduced|réduite|reduziert|reducida|ridotta", header, re.IGNORECASE) else ""
-    )
+    return "reduced" if any(word in header.casefold() for word in SAY["reduced"]) else ""
 
 
 def spellings(known: dict = MEASURED) -> str:
@@ -236,35 +151,11 @@ def _spelled(unit: str) -> str:
     unit = re.sub(
         r"^(?:[°º]|deg\.?|degrees?|degrés?|grad)(?=(?:[CKF]|celsius|fahrenheit)$)", "", unit, flags=re.I
     )
-    words = {
-        "°": "deg",
-        "º": "deg",
-        "degree": "deg",
-        "degrees": "deg",
-        "degré": "deg",
-        "degrés": "deg",
-        "degre": "deg",
-        "degres": "deg",
-        "grados": "deg",
-        "1/s": "Hz",
-        "radian": "rad",
-        "radians": "rad",
-        "celsius": "C",
-        "kelvin": "K",
-        "fahrenheit": "F",
-        "micron": "um",
-        "microns": "um",
-        "hertz": "Hz",
-        "newton": "N",
-        "Grad": "deg",
-        "m-%": "%",
-        "m.-%": "%",
-    }
-    if unit in words:
-        return words[unit]
+    if unit in _SPELLINGS:
+        return _SPELLINGS[unit]
     if len(unit) < 2 or re.match("m[A-Z]", unit):  # mPa and mN stay what they are
         return unit
-    return words.get(unit.lower()) or next((one for one in _UNITS if one.lower() == unit.lower()), unit)
+    return _SPELLINGS.get(unit.lower()) or next((one for one in _UNITS if one.lower() == unit.lower()), unit)
 
 
 def _quantity(stem: str, known: dict, qualified: bool) -> str | None:

@@ -9,21 +9,12 @@ from dataclasses import replace
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.table_import.cells import Cells, Row
-from asphalt_nscd.table_import.quantities import ABSENT
+from asphalt_nscd.table_import.header_lines import told_above
+from asphalt_nscd.table_import.words import ABSENT, OF_SPECIMENS, pattern
 
 # Columns in which merged cells leave all but the first cell empty.
 CARRIED = ("mix", "specimen", "replicate", "nominal_temperature_C", "temperature_C")
-_STATISTIC = re.compile(
-    r"\W*(?:mean|average|avg|moyenne|mittel\w*|media|std\w*|st\.?\s*dev\w*|standard\w*|cv|cov|[ée]cart\w*)\b.*",
-    re.IGNORECASE,
-)
-# What stands in place of a specimen; no more than that, for `Standard 1` may be one.
-_OF_SPECIMENS = re.compile(
-    r"(?:mean|average|avg\.?|moyenne|mittel|mittelwert|durchschnitt|media|promedio|std|st\.?\s*dev\.?|std\.?\s*dev\.?|"
-    r"standard deviation|standardabweichung|[ée]cart[- ]type|cv|cov|coefficient of variation)"
-    r"\s*(?:(?:of|de|von)\s*\d+|[(\[]?%[)\]]?)?",
-    re.IGNORECASE,
-)
+_STATISTIC = pattern("mean", "spread", before=r"\W*", behind=r".*")
 _BEGINS_NUMBER = re.compile(r"[-−+]?[.,]?\d")
 _NAMES, _REMARK, _MEAN, _NOT_MEASURED = (
     "names of columns repeated",
@@ -38,7 +29,7 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
     keys = [places[name] for name in ("temperature_C", "frequency_Hz")]
     results = [places[name] for name in measured]
     labels = [places[name] for name in ("specimen", "replicate") if name in places]
-    of_others = [any(_OF_SPECIMENS.fullmatch(row[place]) for place in labels) for _, row in cells.rows]
+    of_others = [any(OF_SPECIMENS.fullmatch(row[place]) for place in labels) for _, row in cells.rows]
     means = not all(of_others)  # of a table of means alone, these are the tests
     kept: list[Row] = []
     left: dict[str, list[Row]] = {}
@@ -47,6 +38,13 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
         why = _NAMES if row == cells.header else _rejection(row, keys, results)
         why = why or (_MEAN if means and of_other else None)
         (kept if why is None else left.setdefault(why, [])).append((line, row))
+    for line, row in left.get(_REMARK, []):
+        # Of a second table, which would be taken for more of the first.
+        if told_above([(line, row)])[0]:
+            raise InputError(
+                f"{cells.path}, line {line}: {' '.join(_filled(row))[:60]!r} stands among the tests; write it into a "
+                "column of its own, or the names of the columns below it."
+            )
     if not kept:
         # A program that writes formulas stores no values, and openpyxl gives empty cells.
         names = " and ".join(repr(cells.header[place]) for place in results)

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
-from itertools import chain
+from dataclasses import dataclass, field, replace
 
-from asphalt_nscd.files.csvinput import Table
+import numpy as np
+
+from asphalt_nscd.files.csvinput import Table, Values
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.reduction import FORMS, ORIGINS, is_reduced
+from asphalt_nscd.files.words import choice
+from asphalt_nscd.measurements.reduction import FORMS, OF_RECORDS, ORIGINS, is_reduced
 from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, chosen_columns, column_cue, name_with_unit, one_of
-from asphalt_nscd.table_import.decimals import decimal_mark, normalise_decimal, number
+from asphalt_nscd.table_import.decimals import decimal_mark, number
 from asphalt_nscd.table_import.header_lines import attach_units
 from asphalt_nscd.table_import.heading import known, read_heading
 from asphalt_nscd.table_import.melt import melted
-from asphalt_nscd.table_import.quantities import ABSENT, QUALITY, Column, derived, recognise
+from asphalt_nscd.table_import.quantities import QUALITY, derived, recognise
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
-from asphalt_nscd.table_import.storage_loss import WAYS, fill_whole_modulus
+from asphalt_nscd.table_import.storage_loss import PARTS, SAID, WAYS, whole_modulus
+from asphalt_nscd.table_import.words import ABSENT
 
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")
@@ -41,23 +44,41 @@ _ANGLES = (
 
 
 @dataclass(frozen=True)
-class ParsedTable:
-    """A table in our columns and units, and how it was read.
+class Column:
+    """A column of a table that was understood: texts, or numbers (n,) in our unit, NaN where a cell is empty.
 
-    `form` is a key of FORMS. `sources` has, for each of our columns, the user's and the unit it was converted from;
-    `modulus_unit` is what |E*| was converted from, empty if it was in MPa.
+    `heading` is the user's, and `unit` that which the numbers were converted from, empty if it was ours.
     """
+
+    quantity: str
+    unit: str
+    values: Values
+    heading: str
+
+    @property
+    def source(self) -> str:
+        """The user's heading, and the unit that was converted."""
+        return repr(self.heading) + (f", converted from {self.unit}" if self.unit else "")
+
+
+@dataclass(frozen=True)
+class ParsedTable:
+    """A table in our columns and units, how it was read, and the user's columns; `form` is a key of FORMS."""
 
     table: Table
     form: str
     notes: list[str]
-    sources: dict[str, str] = field(default_factory=dict)
+    read: dict[str, Column] = field(default_factory=dict)
     mix: str = ""
-    modulus_unit: str = ""
+
+    @property
+    def modulus_unit(self) -> str:
+        """What |E*| was converted from, empty if it was in MPa."""
+        return next((self.read[name].unit for name in ("E_MPa", "E1_MPa") if name in self.read), "")
 
 
-def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedTable:
-    """Tests of a user's table; `chosen` names columns by what they hold, `{"E_GPa": "Steifigkeit"}`."""
+def understand(cells: Cells, chosen: Mapping[str, str] | None = None, mix: str | None = None) -> ParsedTable:
+    """Tests of a user's table, of one mix; `chosen` names columns by what they hold, `{"E_GPa": "Steifigkeit"}`."""
     if not chosen and (ours := _own(cells)):
         return ours
     cells = melted(attach_units(cells))
@@ -65,45 +86,38 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None) -> ParsedT
     form, results = _form(cells, columns)
     places = {name: columns[name][0][0] for name in (*CARRIED, *KEYS, *results) if name in columns}
     cells = tests_in(cells, places, results)
-    notes = list(cells.notes)
+    agreed: list[str] = []
     kept, copies = {}, set()
     for name, several in columns.items():
         if name in (*TEXTS, "mix", *KEYS, *results):
-            kept[name], said, same = one_of(cells, name, several)
-            notes += said
+            kept[name], told, same = one_of(cells, name, several)
+            agreed += told
             copies |= same
     kept |= _further(columns, form)
-    mix = _only_mix(cells, kept)
-    values, mark = _values(cells, kept)
-    notes += fill_whole_modulus(values)
+    cells, of_mix = _of_one_mix(cells, kept, mix)
+    notes = [*cells.notes, *agreed]
+    # Over all columns: 1,234 alone can be read in two ways, and another column settles it.
+    numeric = [place for name, (place, _) in kept.items() if name not in (*TEXTS, "mix")]
+    mark = decimal_mark(
+        str(cells.path), ((line, row[place]) for line, row in cells.rows for place in numeric)
+    )
+    read = {name: _column(cells, name, place, mark) for name, place in kept.items()}
+    values = {name: column.values for name, column in read.items()}
+    if given := [name for name in SAID if name in values and not PARTS.keys().isdisjoint(values)]:
+        values["E_MPa"], values["phase_deg"] = whole_modulus(
+            {name: np.asarray(values[name]) for name in given}
+        )
+        notes.append(f"|E*| and phase computed from {' and '.join(SAID[name] for name in given)}")
     notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
-    note = _specimens(cells, values)
-    sources = {
-        name: repr(cells.header[place]) + (f", converted from {column.unit}" if _converts(column) else "")
-        for name, (place, column) in kept.items()
-    }
-    if note:
+    if note := _specimens(cells, values):
         notes.append(note)
-    read = {place for place, _ in kept.values()} | copies
-    if ignored := [name for place, name in enumerate(cells.header) if place not in read]:
+    taken = {place for place, _ in kept.values()} | copies
+    if ignored := [name for place, name in enumerate(cells.header) if place not in taken]:
         notes.append(f"ignored: {', '.join(map(repr, ignored))}")
-    order = [
-        "specimen",
-        "replicate",
-        *KEYS,
-        *FORMS["moduli" if form == "modulus" else form],
-        "origin",
-        *FURTHER,
-        *MAY_BE_ABSENT,
-    ]
-    wanted = [name for name in order if name in values]
-    table = Table(cells.path, {name: values[name] for name in wanted}, [line for line, _ in cells.rows])
-    modulus = next((kept[name][1] for name in ("E_MPa", "E1_MPa") if name in kept), Column("E_MPa", None))
-    return ParsedTable(table, form, notes, sources, mix, (modulus.unit or "") if _converts(modulus) else "")
-
-
-def _converts(column: Column) -> bool:
-    return (column.factor, column.offset) != (1.0, 0.0)
+    results = FORMS["moduli" if form == "modulus" else form]
+    order = ("specimen", "replicate", *KEYS, *results, "origin", *FURTHER, *MAY_BE_ABSENT)
+    wanted = {name: values[name] for name in order if name in values}
+    return ParsedTable(Table(cells.path, wanted, [line for line, _ in cells.rows]), form, notes, read, of_mix)
 
 
 def _own(cells: Cells) -> ParsedTable | None:
@@ -111,12 +125,16 @@ def _own(cells: Cells) -> ParsedTable | None:
     names = set(cells.header)
     if not is_reduced(names) and not {"record", *KEYS} <= names:
         return None
-    columns = {name: [row[place] for _, row in cells.rows] for place, name in enumerate(cells.header)}
+    columns: dict[str, Values] = {
+        name: [str(row[place]) for _, row in cells.rows] for place, name in enumerate(cells.header)
+    }
     form = "records" if "record" in names else "moduli"
     if "specimen" not in names and "replicate" in names:
         columns["specimen"] = columns.pop("replicate")
     table = Table(cells.path, columns, [line for line, _ in cells.rows])
     table.require(("specimen",))
+    for name in columns.keys() & {*KEYS, *OF_RECORDS, *FURTHER, *MAY_BE_ABSENT}:
+        columns[name] = table.numbers_or_nan(name)
     return ParsedTable(table, form, [*cells.notes, "columns as `asphalt-nscd reduce` names them"])
 
 
@@ -160,20 +178,32 @@ def names_force_or_modulus(cell: str) -> bool:
     return column is not None and column.quantity in ("E_MPa", "F0_N") and column.unit is not None
 
 
-def _only_mix(cells: Cells, kept: Mapping[str, Place]) -> str:
-    """The name of the only mix in the table."""
+def _of_one_mix(cells: Cells, kept: Mapping[str, Place], wanted: str | None) -> tuple[Cells, str]:
+    """The rows of the mix wanted, or of the only one in the table, and its name."""
     if "mix" not in kept:
-        return ""
+        return cells, ""
     place, _ = kept["mix"]
     mixes = list(dict.fromkeys(row[place] for _, row in cells.rows))
+    named = ", ".join(mixes[:5]) + (", ..." if len(mixes) > 5 else "")
+    if wanted in mixes:
+        notes = [*cells.notes, f"mix {wanted} alone, of {named}"] if len(mixes) > 1 else cells.notes
+        return replace(cells, rows=[one for one in cells.rows if one[1][place] == wanted], notes=notes), str(
+            wanted
+        )
+    if wanted is not None:
+        raise NotTests(
+            f"{cells.path}: no mix {wanted!r} in column {cells.header[place]!r}; give one of {named}."
+        )
     if len(mixes) > 1:
-        named = ", ".join(mixes[:5]) + (", ..." if len(mixes) > 5 else "")
+        way = choice(
+            f'give one with --only-mix "{mixes[0]}"', "save the rows of each mix as a file of its own"
+        )
         raise InputError(
             f"{cells.path}: column {cells.header[place]!r} holds {len(mixes)} mixes ({named}), and a diagnosis is of "
-            "one mix: save the rows of each mix as a file of its own and give one of them. If these are specimens of "
-            f"one mix, say so {column_cue('specimen', cells.header[place])}."
+            f"one mix: {way}. If these are specimens of one mix, say so "
+            f"{column_cue('specimen', cells.header[place])}."
         )
-    return mixes[0]
+    return cells, mixes[0]
 
 
 def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequence[str]]:
@@ -239,58 +269,57 @@ def _all_known(cells: Cells, columns: Mapping[str, list[Place]]) -> bool:
     return not any(re.match(r"[-+]?[.,]?\d", row[place]) for _, row in cells.rows for place in left)
 
 
-def _values(cells: Cells, columns: dict[str, tuple[int, Column]]) -> tuple[dict[str, list[str]], str]:
-    """Columns as text in our units, and the decimal mark of the table."""
-    numeric = [place for name, (place, _) in columns.items() if name not in (*TEXTS, "mix")]
-    # Over all columns: 1,234 alone can be read in two ways, and another column settles it.
-    mark = decimal_mark(
-        str(cells.path),
-        chain.from_iterable(((line, row[place]) for place in numeric) for line, row in cells.rows),
+def _column(cells: Cells, name: str, place: Place, mark: str) -> Column:
+    """A column of the user in our unit."""
+    at, meaning = place
+    heading = cells.header[at]
+    if name in (*TEXTS, "mix"):
+        return Column(name, "", [_word(cells, line, name, row[at]) for line, row in cells.rows], heading)
+    values = np.array([_number(cells, name, place, mark, n) for n in range(len(cells.rows))])
+    if not meaning.converts:
+        return Column(name, "", values, heading)
+    ours = values * meaning.factor + meaning.offset
+    wide = (np.abs(ours) > 90.0) & (np.abs(values) <= 90.0)
+    # A few may be CVs, or are refused where they are used.
+    if name == "phase_deg" and meaning.unit == "rad" and wide.mean() > 0.5:
+        row = int(np.argmax(wide))
+        raise InputError(
+            f"{cells.path}, line {cells.rows[row][0]}: a phase of {values[row]:g} rad is {ours[row]:.0f} deg, more "
+            f"than any material has; if the numbers are degrees, write deg for rad into {heading!r}."
+        )
+    return Column(
+        name, meaning.unit or "", np.round(ours, 2) if meaning.offset else ours, heading
+    )  # 0.01 K of degF
+
+
+def _number(cells: Cells, name: str, place: Place, mark: str, n: int) -> float:
+    """The number in a row of a column, NaN where it may be absent."""
+    line, row = cells.rows[n]
+    text = row[place[0]]
+    value = number(text, mark)
+    if value is not None:
+        return value
+    if name in MAY_BE_ABSENT and text.casefold() in ABSENT:
+        return np.nan
+    problem = f"{text!r} is not a number" if text else "the cell is empty (a formula not computed?)"
+    raise InputError(
+        f"{cells.path}, line {line}: {cells.header[place[0]]}: {problem}; write a number or remove the line."
     )
-    values: dict[str, list[str]] = {name: [] for name in columns}
-    for line, row in cells.rows:
-        for name, (place, column) in columns.items():
-            if name in (*TEXTS, "mix"):
-                values[name].append(_word(cells, line, name, row[place]))
-                continue
-            value = number(row[place], mark)
-            if value is None and name in MAY_BE_ABSENT and row[place].casefold() in ABSENT:
-                values[name].append("")
-                continue
-            if value is None:
-                problem = (
-                    f"{row[place]!r} is not a number"
-                    if row[place]
-                    else "the cell is empty (a formula not computed?)"
-                )
-                raise InputError(
-                    f"{cells.path}, line {line}: {cells.header[place]}: {problem}; write a number or remove the line."
-                )
-            in_ours = value * column.factor + column.offset
-            if name == "phase_deg" and column.unit == "rad" and 90.0 < abs(in_ours) and abs(value) <= 90.0:
-                raise InputError(
-                    f"{cells.path}, line {line}: a phase of {row[place]} rad is {in_ours:.0f} deg, more than any "
-                    f"material has; if the numbers are degrees, write deg for rad into {cells.header[place]!r}."
-                )
-            converted = f"{round(in_ours, 2) if column.offset else in_ours:.10g}"  # 0.01 K of degF
-            # What needs no conversion keeps the digits that the user wrote.
-            values[name].append(converted if _converts(column) else normalise_decimal(row[place], mark))
-    return values, mark
 
 
 def _word(cells: Cells, line: int, name: str, text: str) -> str:
     """Names go into tables that are opened again in spreadsheets, where =, +, - or @ would begin a formula."""
     if name == "origin" and text not in ORIGINS:
         raise InputError(f"{cells.path}, line {line}: origin {text!r} is not one of {', '.join(ORIGINS)}.")
-    if not re.fullmatch(r"[^\W_][\w .,:/()+#°&'-]{0,63}", text):
+    if not re.fullmatch(r"[^\W_][\w .,:/()+#°&%'-]{0,63}", text):
         raise InputError(
             f"{cells.path}, line {line}: {name} {text!r} must begin with a letter or digit and hold at most 64 "
-            "letters, digits, spaces and . , : / ( ) + # - _ ° & '; rename it."
+            "letters, digits, spaces and . , : / ( ) + # - _ ° & % '; rename it."
         )
     return text
 
 
-def _specimens(cells: Cells, values: dict[str, list[str]]) -> str:
+def _specimens(cells: Cells, values: dict[str, Values]) -> str:
     """Put a specimen to each test, and say how it was told."""
     if "specimen" in values:
         return ""
@@ -299,7 +328,7 @@ def _specimens(cells: Cells, values: dict[str, list[str]]) -> str:
         return f"{len(set(values['specimen']))} replicates, taken as specimens"
     values["specimen"] = ["1"] * len(cells.rows)
     distinguishing = [values[name] for name in (*KEYS, "amplitude_m", "order", "cycles") if name in values]
-    first: dict[tuple[str, ...], int] = {}
+    first: dict[tuple[object, ...], int] = {}
     for (line, _), *test in zip(cells.rows, *distinguishing, strict=True):
         # Nothing tells whether it is another specimen or the same again, which scatter differently.
         earlier = first.setdefault(tuple(test), line)

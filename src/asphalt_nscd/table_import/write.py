@@ -13,6 +13,7 @@ from typing import Any, TypeGuard
 import numpy as np
 import pandas as pd
 import yaml
+from numpy.typing import NDArray
 
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
@@ -54,6 +55,7 @@ class StudyOptions:
     small: bool = False
     sheet: str | None = None
     columns: Mapping[str, str] | None = None
+    mix: str | None = None
 
 
 def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) -> tuple[Path, list[str]]:
@@ -66,7 +68,9 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
     _require_free(name, config, folder)
     if options.small and options.grading is not None:
         raise InputError("--small takes spheres of its own; leave out --grading or --small.")
-    campaign, form = read_campaign(measurements, options.sheet, options.columns, options.measured_in)
+    campaign, form = read_campaign(
+        measurements, options.sheet, options.columns, options.measured_in, options.mix
+    )
     source = ", ".join(map(str, measurements))
     direct = campaign.test_type == "tension-compression"
     read, notes = study_table(campaign, form)
@@ -82,7 +86,9 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
     simulated, why_simulated = _simulated(shape, direct, options)
     spheres = _spheres(simulated, options)
     seeds = [1] if options.small else [1, 2, 3, 4]
-    amplitude, why = _amplitude(read.columns.get("z0_m"), simulated, options.small)
+    amplitude, why = _amplitude(
+        read.numbers("z0_m") if "z0_m" in read.columns else None, simulated, options.small
+    )
     step = float(f"{min(COARSEST_STEP, 1.0 / (STEPS_PER_CYCLE * max(frequencies))):.2g}")
     table, counts = folder / "measurements.csv", folder / "counts.csv"
     text = _render(
@@ -168,11 +174,8 @@ def study_table(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
         notes.append("each replicate of a specimen is taken as a specimen")
     measured = table.numbers("temperature_C", LIMITS["temperature_C"])
     nominal = nominal_temperatures(table, measured)
-    if (changed := nominal != measured).any():
-        columns["temperature_C"] = [
-            f"{value:.10g}" if other else text
-            for value, other, text in zip(nominal, changed, columns["temperature_C"], strict=True)
-        ]
+    if (nominal != measured).any():
+        columns["temperature_C"] = nominal
         notes += isotherm_notes(measured, nominal)
         notes.append("each test has the temperature of its isotherm, because a study has one law for each")
     return replace(table, columns=columns), notes
@@ -234,10 +237,10 @@ def _words(spheres: Spheres, options: StudyOptions) -> str:
     return f"{counted(spheres.counts.sum(), 'sphere')}: {origin}."
 
 
-def _amplitude(measured: list[str] | None, simulated: Shape, small: bool) -> tuple[float, str]:
+def _amplitude(measured: NDArray[np.float64] | None, simulated: Shape, small: bool) -> tuple[float, str]:
     """Of the simulated head [m]: as measured, or giving the strain of the paper's."""
     if measured is not None and not small:
-        return float(np.median(np.array(measured, float))), "median of those measured"
+        return float(np.median(measured)), "median of those measured"
     why = (
         "the strain of the paper's 63e-6 m"
         if simulated.test == "bending"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import re
 import sys
 import time
 import traceback
@@ -13,6 +12,8 @@ from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import ON_PAGE
@@ -121,20 +122,21 @@ def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, outpu
 def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
     """How the files were read, as JSON values: sentences, first tests, what each of the user's columns is taken for."""
     from asphalt_nscd.table_import.campaign import read_campaign
+    from asphalt_nscd.table_import.frames import frame_of
 
     campaign, form = read_campaign(paths, None, choices.columns, choices.measured_in)
-    table = campaign.table.columns
-    shown = [name for name in table if any(table[name])]
+    table = frame_of(campaign)
+    shown = [name for name in table.columns if (table[name].notna() & (table[name] != "")).any()]
     return {
         "form": form,
         "test_type": campaign.test_type,
         "notes": [_shorten_paths(note, paths) for note in campaign.notes],
         "tests": len(campaign.table.lines),
-        "specimens": list(dict.fromkeys(table["specimen"])),
+        "specimens": list(table["specimen"].unique()),
         "header": shown,
         "rows": [
-            [_rounded(table[name][row]) for name in shown]
-            for row in range(min(ROWS_SHOWN, len(campaign.table.lines)))
+            [_rounded(value) for value in row]
+            for row in table[shown].head(ROWS_SHOWN).itertuples(index=False, name=None)
         ],
         "columns": _columns(paths),
     }
@@ -171,23 +173,25 @@ def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
 
 def _tables(path: Path) -> list[Cells]:
     """The tables of a file: its matrices as one, else each sheet but those of means of others."""
+    from asphalt_nscd.table_import import matrices
     from asphalt_nscd.table_import.cells import read_sheets
     from asphalt_nscd.table_import.header_lines import tabulated
-    from asphalt_nscd.table_import.matrices import matrix_cells
     from asphalt_nscd.table_import.melt import holds_means
     from asphalt_nscd.table_import.sheets import is_computed_sheet
 
     sheets = read_sheets(path)
-    if (cells := matrix_cells(path, sheets, [])) is not None:
-        return [cells]
+    if matrices.matches(sheets):
+        return [block.cells for block in matrices.read(sheets, {})]
     tables = [(str(sheet.name), tabulated(path, sheet.rows, [])) for sheet in sheets]
     own = [cells for name, cells in tables if not is_computed_sheet(name, cells) and not holds_means(cells)]
     return own or [cells for _, cells in tables]
 
 
-def _rounded(text: str) -> str:
-    """A number to six digits, as a first look needs it; other text as it is."""
-    return f"{float(text):.6g}" if re.fullmatch(r"-?\d+\.\d{3,}", text) else text
+def _rounded(value: str | float) -> str:
+    """A number to six digits, as a first look needs it; text as it is."""
+    if isinstance(value, str):
+        return value
+    return f"{value:.6g}" if np.isfinite(value) else ""
 
 
 def _missing_unit(quantity: str) -> str:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from layouts.generator import LAYOUTS, draw
+from layouts.generator import FAMILIES, draw
 from layouts.score import outcome
 
 
-@pytest.mark.parametrize("seed", range(len(LAYOUTS)))
+@pytest.mark.parametrize("seed", range(len(FAMILIES)))
 def test_each_layout_is_read(tmp_path, seed):
     _, path, tests = draw(seed, tmp_path)
     assert outcome(path, tests) == ("read", "")

@@ -64,7 +64,7 @@ def read_observations(
         )
     reduced = is_reduced(table.columns)  # before: peaks stand beside the moduli
     if reduced:
-        table = _drop_columns(table, (name for name in PEAKS if not any(table.columns[name])))
+        table = _drop_columns(table, (name for name in PEAKS if np.isnan(table.numbers_or_nan(name)).all()))
     if len(table.lines) > MOST_ROWS:
         raise InputError(
             f"{path}: {len(table.lines)} rows; give at most {MOST_ROWS}, for example one mix at a time."

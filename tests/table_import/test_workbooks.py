@@ -1,0 +1,159 @@
+"""Workbooks as laboratories keep them: merged heads, means without a word, hidden rows, other programs' formats."""
+
+from __future__ import annotations
+
+import statistics
+import zipfile
+from itertools import product
+from xml.sax.saxutils import escape
+
+import openpyxl
+import pytest
+from table_import.slips import plain, read, refused, said, workbook
+
+from asphalt_nscd.table_import.campaign import read_campaign
+
+TEMPERATURES, FREQUENCIES, SPECIMENS = (4, 21, 37), (10, 1), "123"
+KEYS = ["T (°C)", "f (Hz)"]
+
+
+def modulus(s, t, f):
+    return 15000 - 350 * t + 90 * f + 400 * int(s) + 10 * ((t * int(s)) % 7)
+
+
+def phase(s, t, f):
+    return round(8 + 0.6 * t - 0.2 * f + 0.4 * int(s) + 0.1 * ((t + int(s)) % 3), 1)
+
+
+TESTS = {
+    (s, t, f): (modulus(s, t, f), phase(s, t, f)) for s, t, f in product(SPECIMENS, TEMPERATURES, FREQUENCIES)
+}
+
+
+def held(campaign):
+    table = plain(campaign.table)
+    columns = (table[name] for name in ("specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"))
+    return {(s[-1], t, f): (e, p) for s, t, f, e, p in zip(*columns, strict=True)}
+
+
+@pytest.mark.parametrize("label", ["Specimen {}", "{}", "Ép. {}", 1])
+@pytest.mark.parametrize("preface", [[], [["Mix A 13"], ["Tests of May", "T 378"]]])
+def test_specimens_over_modulus_and_phase_with_temperature_merged_from_the_first_line(
+    tmp_path, label, preface
+):
+    above = [cell for s in SPECIMENS for cell in (int(s) if label == 1 else label.format(s), None)]
+    rows = [
+        [t if f == FREQUENCIES[0] else None, f, *(cell for s in SPECIMENS for cell in TESTS[s, t, f])]
+        for t, f in product(TEMPERATURES, FREQUENCIES)
+    ]
+    table = [*preface, [*KEYS, *above], [None, None, *["E* (MPa)", "phase (°)"] * 3], *rows]
+    assert held(read(tmp_path, table, "t.xlsx")) == TESTS
+
+
+def statistics_of(t, f):
+    """Mean, deviation and CV of |E*| and phase over the specimens, as a spreadsheet shows them."""
+    both = [[TESTS[s, t, f][which] for s in SPECIMENS] for which in (0, 1)]
+    means, deviations = [statistics.mean(x) for x in both], [statistics.stdev(x) for x in both]
+    yield round(means[0]), round(means[1], 1)
+    yield round(deviations[0]), round(deviations[1], 2)
+    yield tuple(round(100 * deviation / mean, 1) for deviation, mean in zip(deviations, means, strict=True))
+
+
+@pytest.mark.parametrize(
+    "words", [("MW",), ("Ave", "SD", "CV"), ("Moy.",), ("Średnia",), ("Xquer", "sx", "V%"), ("平均",)]
+)
+@pytest.mark.parametrize("as_columns", [False, True])
+def test_means_and_deviations_are_known_by_their_numbers_in_any_language(tmp_path, words, as_columns):
+    table = {(t, f): [TESTS[s, t, f] for s in SPECIMENS] for t, f in product(TEMPERATURES, FREQUENCIES)}
+    names = [*SPECIMENS, *words]
+    for key, cells in table.items():
+        cells += list(statistics_of(*key))[: len(words)]
+    if as_columns:
+        head = [[*KEYS, "E* (MPa)", *[None] * (len(names) - 1), "phase (°)"], [None, None, *names, *names]]
+        rows = [
+            *head,
+            *([t, f, *(c[0] for c in cells), *(c[1] for c in cells)] for (t, f), cells in table.items()),
+        ]
+    else:
+        rows = [["specimen", *KEYS, "E* (MPa)", "phase (°)"]]
+        rows += [
+            [s, *key, *cell] for key, cells in table.items() for s, cell in zip(names, cells, strict=True)
+        ]
+    campaign = read(tmp_path, rows, "t.xlsx")
+    assert held(campaign) == TESTS
+    assert said(campaign, "left out, means and deviations")
+
+
+def test_a_specimen_near_the_mean_of_the_others_stays(tmp_path):
+    rows = [["specimen", *KEYS, "E* (MPa)", "phase (°)"]]
+    for t, f in product(TEMPERATURES, FREQUENCIES):
+        (e1, p1), (e2, p2), _ = (TESTS[s, t, f] for s in SPECIMENS)
+        off = 20 if f == 10 else 0  # 0.2 per cent
+        rows += [["1", t, f, e1, p1], ["2", t, f, e2, p2], ["3", t, f, (e1 + e2) / 2 + off, (p1 + p2) / 2]]
+    assert set(plain(read(tmp_path, rows, "t.xlsx").table)["specimen"]) == set(SPECIMENS)
+
+
+def long(tests=TESTS):
+    return [["specimen", *KEYS, "E* (MPa)", "phase (°)"], *([*key, *both] for key, both in tests.items())]
+
+
+def test_hidden_rows_are_read_and_told(tmp_path):
+    path = workbook(tmp_path / "t.xlsx", results=long())
+    book = openpyxl.load_workbook(path)
+    book["results"].row_dimensions[3].hidden = book["results"].row_dimensions[5].hidden = True
+    book.save(path)
+    campaign, _ = read_campaign([path])
+    assert held(campaign) == TESTS
+    assert said(campaign, "hidden rows 3, 5")
+
+
+def test_a_sheet_may_be_named_with_a_minus_sign(tmp_path):
+    cold = {(s, -t, f): both for (s, t, f), both in TESTS.items()}
+    sheets = {
+        f"\N{MINUS SIGN}{t} °C": [
+            ["specimen", "f (Hz)", "E* (MPa)", "phase (°)"],
+            *([s, f, *both] for (s, u, f), both in cold.items() if u == -t),
+        ]
+        for t in TEMPERATURES
+    }
+    assert held(read(tmp_path, sheets, "t.xlsx")) == cold
+
+
+def open_document(path, rows):
+    """A workbook as LibreOffice keeps it."""
+
+    def cell(value):
+        if value is None:
+            return "<table:table-cell/>"
+        kind = (
+            f'office:value-type="float" office:value="{value}"'
+            if isinstance(value, int | float)
+            else 'office:value-type="string"'
+        )
+        return f"<table:table-cell {kind}><text:p>{escape(str(value))}</text:p></table:table-cell>"
+
+    names = "".join(
+        f' xmlns:{n}="urn:oasis:names:tc:opendocument:xmlns:{n}:1.0"' for n in ("office", "table", "text")
+    )
+    lines = "".join(f"<table:table-row>{''.join(map(cell, row))}</table:table-row>" for row in rows)
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
+        archive.writestr("META-INF/manifest.xml", "<manifest/>")
+        archive.writestr(
+            "content.xml",
+            f'<office:document-content{names} office:version="1.2"><office:body><office:spreadsheet>'
+            f'<table:table table:name="Sheet1">{lines}</table:table>'
+            "</office:spreadsheet></office:body></office:document-content>",
+        )
+    return path
+
+
+def test_a_workbook_of_open_document_is_read(tmp_path):
+    (tmp_path / "mix").mkdir()
+    open_document(tmp_path / "mix/t.ods", long())
+    assert held(read_campaign([tmp_path / "mix"])[0]) == TESTS
+
+
+def test_one_name_above_several_columns_is_named(tmp_path):
+    rows = [[*KEYS, "Wert", "Wert", "phase (°)"], [4, 10, 9000, 9100, 12]]
+    refused(read, tmp_path, rows, E_MPa="Wert", names=["t.csv: 2 columns are called 'Wert'"])
