@@ -250,7 +250,7 @@ def _given() -> list[Any]:
     given = [one for one in request.files.getlist("files") if one.filename]
     if not given or len(given) > MOST_FILES:
         abort(400, f"give between one and {MOST_FILES} files")
-    names = [safe_name(one.filename) for one in given]
+    names = [safe_name(one.filename or "") for one in given]
     for name in names:
         if Path(name).suffix.lower() not in TABLES:
             abort(400, f"{name}: give files that end in {', '.join(TABLES)}")
@@ -261,7 +261,7 @@ def _given() -> list[Any]:
 
 def _saved(given: list[Any], folder: Path) -> list[Path]:
     folder.mkdir()
-    paths = [folder / safe_name(one.filename) for one in given]
+    paths = [folder / safe_name(one.filename or "") for one in given]
     for one, path in zip(given, paths, strict=True):
         one.save(path)
     return paths
