@@ -33,7 +33,7 @@ def address():
     threading.Thread(target=server.serve_forever, daemon=True).start()
     yield f"http://127.0.0.1:{server.server_port}/{app.config['TOKEN']}/"
     server.shutdown()
-    app.config["DESK"].close()
+    app.config["DESKS"].close()
 
 
 @pytest.fixture
@@ -85,10 +85,10 @@ def until(page, condition):
         time.sleep(0.3)
 
 
-def drop(page, *paths):
+def drop(page, *paths, field="#files"):
     page.call("DOM.enable")
     root = page.call("DOM.getDocument")["root"]["nodeId"]
-    node = page.call("DOM.querySelector", nodeId=root, selector="#files")["nodeId"]
+    node = page.call("DOM.querySelector", nodeId=root, selector=field)["nodeId"]
     page.call("DOM.setFileInputFiles", nodeId=node, files=[str(path) for path in paths])
 
 
@@ -110,6 +110,21 @@ def look(page, name, width, dark):
 
 def choose(page, selector, value):
     page.evaluate(f"(m => {{ m.value = {value!r}; m.dispatchEvent(new Event('change')); }})({selector})")
+
+
+def compared(page, folder):
+    """Another mix dropped beside the first; then the answer to the first is looked at again."""
+    other = folder / "other.csv"
+    rows = [
+        f"A,{t},{f},{3e4 / (1 + 0.05 * t * t / f**0.4):.1f},{8 + 0.6 * t - f**0.5:.2f}"
+        for t in (4, 12, 20, 35)
+        for f in (0.1, 1, 10)
+    ]
+    other.write_text("specimen,T (C),f (Hz),E (MPa),phi (deg)\n" + "\n".join(rows), encoding="utf-8")
+    drop(page, other, field="#others")
+    until(page, "document.getElementById('full').src.endsWith('comparison.html')")
+    look(page, "compared", 1280, dark=False)
+    assert "both mixes" in page.evaluate("document.getElementById('take').textContent")
 
 
 def test_from_drop_to_download(page, address, tmp_path):
@@ -137,15 +152,20 @@ def test_from_drop_to_download(page, address, tmp_path):
     (pdf,) = (one for one in files if "report.pdf" in one)
     with urllib.request.urlopen(pdf) as answer:
         assert answer.read(5) == b"%PDF-"
+    assert {"law_abaqus.inp", "law_ansys.inp", "law_comsol.txt", "law_mepdg.csv", "law_xlsx.xlsx"} <= names
+    page.call("Page.reload")  # keeps the answer
+    until(page, "document.getElementById('result')?.hidden === false")
     for width in (1280, 390):
         for dark in (False, True):
             look(page, "result", width, dark)
     assert page.evaluate("document.title") == "asphalt-nscd"  # HTML in cells stayed text
     assert "MPa" in page.evaluate("document.getElementById('value').textContent")
-    page.open(f"{address}results/diagnosis.html", 1280)
+    desk = page.evaluate("location.href")
+    compared(page, tmp_path)
+    page.open(f"{desk}results/diagnosis.html", 1280)
     assert page.evaluate("document.querySelector('svg').getBoundingClientRect().bottom") < 900
-    one = "[...document.querySelectorAll('circle')].find(c => c.dataset.test === 'B|12|5')"
-    page.evaluate(f"{one}.dispatchEvent(new Event('click', {{bubbles: true}}))")
-    marked = page.evaluate("[...document.querySelectorAll('.on')].map(m => m.tagName + m.dataset.test)")
-    # Three plots of specimens, three of isotherms; the specimen's map, and the condition in four maps.
-    assert sorted(marked) == ["circleB|12|5"] * 6 + ["gB|12|5"] + ["g|12|5"] * 4
+    one = "[...document.querySelectorAll('[data-test]')].find(c => c.dataset.test === 'B|12|5')"
+    page.evaluate(f"{one}.querySelector('path, use').dispatchEvent(new Event('click', {{bubbles: true}}))")
+    marked = page.evaluate("[...document.querySelectorAll('.on')].map(m => m.dataset.test)")
+    # Two master curves, two plots of specimens, the specimen's map; and the condition in four maps.
+    assert sorted(marked) == ["B|12|5"] * 5 + ["|12|5"] * 4

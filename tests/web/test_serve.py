@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import time
 import zipfile
 
 import pytest
@@ -21,14 +22,15 @@ TABLE = "specimen,T (°C),f (Hz),E (MPa),phi (°)\n" + "".join(
     for t in (4, 21)
     for f in (10, 1)
 )
-PAGE = "/secret/"
+TAB = "0123456789ab"
+PAGE = f"/secret/{TAB}/"
 
 
 @pytest.fixture
 def app():
     made = create_app("secret")
     yield made
-    made.config["DESK"].close()
+    made.config["DESKS"].close()
 
 
 @pytest.fixture
@@ -45,7 +47,8 @@ def dropped(client, *files):
 
 def test_only_the_user_is_answered(client):
     assert client.get(PAGE).status_code == 200
-    for address in ("/", "/other/", "/secre/", "/other/job"):
+    assert client.get("/secret/").status_code == 302
+    for address in ("/", "/other/", "/secre/", f"/other/{TAB}/job", "/secret/..", "/secret/../job"):
         assert client.get(address).status_code in (403, 404)
     assert client.get(PAGE, headers={"Host": "evil.example"}).status_code == 403
     elsewhere = {"Origin": "http://evil.example"}
@@ -82,11 +85,40 @@ def test_files_are_read_and_said(client, app):
     expected = {"E (MPa)": ("E_MPa", "MPa"), "T (°C)": ("temperature_C", "C"), "specimen": ("specimen", "")}
     assert held.items() >= expected.items()
     # Notes hold no folder of the server, and menus of the page for options of the command.
-    assert not any(str(app.config["DESK"].folder) in note or "--" in note for note in content["notes"])
+    assert not any(str(app.config["DESKS"].folder) in note or "--" in note for note in content["notes"])
+
+
+def test_each_tab_has_a_desk_that_a_reload_keeps_and_no_other_sees(client):
+    first, second = (client.get("/secret/").headers["Location"] for _ in range(2))
+    assert first != second
+    for place, name in ((first, "a.csv"), (second, "b.csv")):
+        data = {"files": [(io.BytesIO(TABLE.encode()), name)]}
+        client.post(f"{place}files", data=data, content_type="multipart/form-data")
+    chosen = {"law": "cam", "heading": {"operator": "A. Tester"}}
+    client.post(f"{first}read", json=chosen)
+    for place, name, law in ((first, "a.csv", "cam"), (second, "b.csv", "2s2p1d")):
+        kept = client.get(f"{place}state").get_json()
+        assert (kept["reading"]["files"], kept["reading"]["tests"], kept["job"]) == ([name], 8, None)
+        assert kept["choices"]["law"] == law
+    assert client.get(f"{first}state").get_json()["choices"]["heading"] == chosen["heading"]
+
+
+def test_of_too_many_desks_the_oldest_goes(client, app):
+    dropped(client, ("t.csv", TABLE.encode()))
+    for n in range(pages.MOST_DESKS):
+        client.get(f"/secret/{n:012x}/state")
+    assert client.get(f"{PAGE}state").get_json()["reading"] is None
+    assert len(list(app.config["DESKS"].folder.iterdir())) == pages.MOST_DESKS
 
 
 @pytest.mark.parametrize(
-    ("choice", "status"), [({"measured_in": "torsion"}, 400), ({"law": "burger"}, 400), ({"law": "cam"}, 200)]
+    ("choice", "status"),
+    [
+        ({"measured_in": "torsion"}, 400),
+        ({"law": "burger"}, 400),
+        ({"law": "cam"}, 200),
+        ({"heading": {"x": "y"}}, 400),
+    ],
 )
 def test_choices_are_those_of_the_page(client, choice, status):
     dropped(client, ("t.csv", TABLE.encode()))
@@ -116,7 +148,7 @@ def test_much_more_than_a_campaign_is_refused(client, app, tmp_path):
     for name, answer in answers.items():
         assert answer.status_code == 413
         assert name in answer.get_json()["error"]
-    assert app.config["DESK"].files == []
+    assert app.config["DESKS"].at(TAB).files == []
     (tmp_path / "t.csv").write_text("T (C),f (Hz),E (MPa),phi (deg)\n" + "4,10,12345,12\n" * 21_001)
     with pytest.raises(InputError, match="t.csv: more than 20000 rows"):
         read_tables([tmp_path / "t.csv"], Choices())
@@ -130,6 +162,19 @@ def test_an_archive_that_unpacks_to_much_more_is_refused(tmp_path):
     assert job.state == "failed"
     assert "60 MB" in job.result["error"]
     assert str(tmp_path) not in job.result["error"]
+
+
+def test_a_huge_row_number_is_refused_at_once(tmp_path):
+    path = workbook(tmp_path / "t.xlsx", results=[line.split(",") for line in TABLE.splitlines()])
+    with zipfile.ZipFile(path) as archive:
+        parts = {name: archive.read(name) for name in archive.namelist()}
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in parts.items():
+            archive.writestr(name, content.replace(b'<row r="5"', b'<row r="1000000000000"'))
+    before = time.process_time()
+    with pytest.raises(InputError, match="names row 1000000000000, which none has"):
+        read_tables([path], Choices())
+    assert time.process_time() - before < 2.0
 
 
 def test_html_in_cells_is_handed_on_as_it_is(tmp_path):

@@ -52,12 +52,12 @@ FIGURES = {
     "fig_master": ("0 Diagnosis", data("diagnosis residuals")),
     "fig_limits": ("0 Diagnosis", data("diagnosis")),
     "fig01": ("1 Measurements and laws", data("study")),
-    "fig07": ("3 Bending tests", {"test": waveform(TYPICAL, FASTEST)}),
-    "fig08": ("3 Bending tests", {"test": waveform(SOFTER, SLOWEST)} | data("specimen")),
-    "fig09": ("3 Bending tests", data("simulations measured laws")),
-    "fig10": ("3 Bending tests", data("simulations measured laws")),
-    "fig_forces": ("3 Bending tests", {"model": expand(f"{model()}.h5", sample=FIRST)} | data("specimen")),
-    "fig_ratio": ("3 Bending tests", data("simulations")),
+    "fig07": ("3 Simulated tests", {"test": waveform(TYPICAL, FASTEST)}),
+    "fig08": ("3 Simulated tests", {"test": waveform(SOFTER, SLOWEST)} | data("specimen")),
+    "fig09": ("3 Simulated tests", data("simulations measured laws")),
+    "fig10": ("3 Simulated tests", data("simulations measured laws")),
+    "fig_forces": ("3 Simulated tests", {"model": expand(f"{model()}.h5", sample=FIRST)} | data("specimen")),
+    "fig_ratio": ("3 Simulated tests", data("simulations")),
 }
 # Name: {kind of data: files}.
 TABLES = {
@@ -73,8 +73,8 @@ PAGES = {
     "measured": "1 Measurements and laws",
     "table3": "1 Measurements and laws",
     "samples": "2 Preparation",
-    "simulations": "3 Bending tests",
-    "table4": "3 Bending tests",
+    "simulations": "3 Simulated tests",
+    "table4": "3 Simulated tests",
     "timings": "8 About this run",
 }
 
@@ -144,9 +144,10 @@ if AUDIT and SENSITIVITY and PACKING and STEPPING and PRINTED:
     }
 if COMMON_LAW:
     PAGES |= dict.fromkeys(["extended", "prony", "dynamic_modulus"], "0 Diagnosis")
+    FIGURES["fig_residual_map"] = ("0 Diagnosis", data("diagnosis residuals extended"))
     FIGURES["fig10_extended"] = ("0 Diagnosis", data("simulations extended measured laws common"))
 if REMAPPED:
-    PAGES |= {"facets": "0 Diagnosis", "fracture": "3 Bending tests"}
+    PAGES |= {"facets": "0 Diagnosis", "fracture": "3 Simulated tests"}
     TABLES["fracture"] = data("simulations facets")
 if FAMILIES:
     PAGES |= {"rivals": "0 Diagnosis", "families": "0 Diagnosis"}

@@ -62,7 +62,7 @@ rule diagnosis_page:
         table4="<results>/table4.csv",
         ladder="<results>/ladder.csv",
         code=code("diagnosis-page"),
-        template=page_files("diagnosis_page.html", "charts.html"),
+        template=page_files("diagnosis_page.html", "charts.html", "table.html"),
     output:
         report(
             "<results>/pages/diagnosis.html",

@@ -21,7 +21,7 @@ for name, (category, files) in FIGURES.items():
             f"<results>/figures/{name}.svg",
             report(
                 f"<results>/figures/{name}.png",
-                caption=f"../report/{name}.rst",
+                caption=f"../report/{caption(name)}.rst",
                 category=category,
                 labels={"result": title(name)},
             ),
@@ -80,7 +80,7 @@ rule pages:
         [
             report(
                 f"<results>/pages/{name}.html",
-                caption=f"../report/{name}.rst",
+                caption=f"../report/{caption(name)}.rst",
                 category=category,
                 labels={"result": title(name)},
             )
@@ -203,7 +203,7 @@ rule report:
     input:
         figures=[f"<results>/figures/{name}.png" for name in FIGURES],
         pages=[f"<results>/pages/{name}.html" for name in ("diagnosis", *PAGES)],
-        captions=[shipped(f"workflow/report/{name}.rst") for name in ("diagnosis", *FIGURES, *PAGES)],
+        captions=[shipped(f"workflow/report/{caption(name)}.rst") for name in ("diagnosis", *FIGURES, *PAGES)],
         data=["<results>/measured.csv", "<results>/simulations.csv", "<results>/samples.csv"],
         diagnosis=DIAGNOSED[0],
         ladder="<results>/ladder.csv",
@@ -237,8 +237,8 @@ rule report:
         sources=lambda wildcards, output: [
             f"--source={name}={path}" for name, path in sources_of_entries(os.path.dirname(output[0]))
         ],
-        captions=lambda wildcards, input: os.path.dirname(input.captions[0]),
+        captions=lambda wildcards, input: [f"--caption={path}" for path in input.captions],
     message:
         "Put figures and tables into one report: {output}"
     shell:
-        "asphalt-nscd report {params.data:q} --study {params.study} {params.entries:q} {params.sources:q} --captions {params.captions} --output {output} > {log} 2>&1"
+        "asphalt-nscd report {params.data:q} --study {params.study} {params.entries:q} {params.sources:q} {params.captions:q} --output {output} > {log} 2>&1"

@@ -143,14 +143,20 @@ def options(values, *keys):
     return " ".join(f"--{key.lower().replace('_', '-')} {text(values[key])}" for key in keys or values)
 
 
+def caption(name):
+    """Name of a caption in workflow/report: in own/, where there is one, of a study that repeats no paper."""
+    own = f"own/{name}"
+    return own if "published" not in STUDY and Path(shipped(f"workflow/report/{own}.rst")).exists() else name
+
+
 def title(name):
     """First line of a caption; numbers padded, because the report sorts by it."""
-    caption = Path(shipped(f"workflow/report/{name}.rst"))
-    if not caption.exists():
+    text = Path(shipped(f"workflow/report/{caption(name)}.rst"))
+    if not text.exists():
         sys.exit(
             f"error: workflow/report/{name}.rst: no caption of {name}; write it, its title in ** on the first line."
         )
-    line = caption.read_text(encoding="utf-8").splitlines()[0]
+    line = text.read_text(encoding="utf-8").splitlines()[0]
     return re.sub(r"Fig\. (\d):", r"Fig. 0\1:", line.strip("*").replace("\\", ""))
 
 

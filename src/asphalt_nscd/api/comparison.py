@@ -11,6 +11,7 @@ import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.diagnosis import Diagnosis, diagnose
+from asphalt_nscd.api.tables import Measurements
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE
 from asphalt_nscd.diagnosis.machine.common_faults import Pooled
 from asphalt_nscd.diagnosis.machine.pooled import pool
@@ -19,6 +20,7 @@ from asphalt_nscd.diagnosis.record.reported import EN_12697_26, master_curve
 from asphalt_nscd.diagnosis.settings import Draws, Known
 from asphalt_nscd.diagnosis.words import brief, sentences
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.store import write_table
 
 DRAWS = 20_000  # of the moduli, for the ranks
 Progress = Callable[[str, float, float], None]
@@ -121,6 +123,37 @@ class Comparison:
         whole = pd.concat(parts, ignore_index=True)
         return whole[["mix", *(column for column in whole if column != "mix")]]
 
+    def write(self, folder: str | Path, machine: Pooled | None = None) -> list[str]:
+        """Write comparison.html and comparison.xlsx, and the files of each diagnosis into a folder of its own.
+
+        Parameters
+        ----------
+        folder : path
+            Made where it does not exist.
+        machine : Pooled, optional
+            What `same_machine` found; written as machine.csv too.
+
+        Returns
+        -------
+        list of str
+            Names of the files of the comparison.
+        """
+        from asphalt_nscd.exports.formats.xlsx import write_sheets
+        from asphalt_nscd.reporting.pages import comparison, diagnosis_page
+
+        folder, table, curves = Path(folder), self.table, self.curves
+        for name, diagnosis in self.diagnoses.items():
+            diagnosis.outcome.write(folder / name)
+            diagnosis_page.write_page(folder / name, f"Diagnosis of {name}")
+        sheets = {"Ranking": table, "Curves at 15 degC": curves}
+        if machine is not None:
+            write_table(folder / "machine.csv", machine.table)
+            sheets["Machine"] = machine.table
+        write_sheets(folder / "comparison.xlsx", sheets)
+        said = "" if machine is None else str(machine)
+        comparison.write_page(folder / comparison.PAGE, table, curves, said)
+        return [comparison.PAGE, "comparison.xlsx", *(["machine.csv"] if machine is not None else [])]
+
 
 def _ranks(table: pd.DataFrame) -> tuple[list[int], list[int]]:
     """95 % interval of the rank of each row, 1 for the stiffest."""
@@ -137,7 +170,7 @@ def _ranks(table: pd.DataFrame) -> tuple[list[int], list[int]]:
 
 @checked
 def compare(
-    mixes: Mapping[str, str | Path] | Sequence[str | Path],
+    mixes: Mapping[str, Measurements] | Sequence[str | Path],
     *,
     measured_in: str | None = None,
     law: str = Known.law,
@@ -149,7 +182,7 @@ def compare(
     Parameters
     ----------
     mixes : mapping or list of paths
-        By the name of the mix; of a list the names are those of files and folders.
+        By the name of the mix what `diagnose` takes; of a list the names are those of files and folders.
     measured_in : str, optional
         "bending" or "tension-compression"; else what the files say.
     law : str
@@ -188,11 +221,11 @@ def compare(
     return Comparison(found)
 
 
-def _named(mixes: Mapping[str, str | Path] | Sequence[str | Path]) -> dict[str, Path]:
+def _named(mixes: Mapping[str, Measurements] | Sequence[str | Path]) -> dict[str, Measurements]:
+    paths: dict[str, Measurements] = {}
     if isinstance(mixes, Mapping):
-        paths = {name: Path(path) for name, path in mixes.items()}
+        paths |= mixes
     else:
-        paths = {}
         for path in map(Path, mixes):
             if path.stem in paths:
                 raise InputError(f"{path}: two mixes are called {path.stem}; rename one.")

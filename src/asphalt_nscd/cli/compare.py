@@ -4,7 +4,6 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli import _data
 from asphalt_nscd.cli._options import MEASURED_IN, only, option, step
 from asphalt_nscd.cli._progress import bars
 from asphalt_nscd.diagnosis.settings import Draws, Known
@@ -25,32 +24,19 @@ def command(
     MIXES: a file or a folder for each mix, two or more.
     """
     from asphalt_nscd.api.comparison import compare
-    from asphalt_nscd.files.store import write_table
 
     with bars("mix", on_terminal=True) as progress:
         made = compare(mixes, measured_in=measured_in, law=known.law, draws=draws, progress=progress)
-    table, curves = made.table, made.curves
-    for name, diagnosis in made.diagnoses.items():
-        diagnosis.outcome.write(output / name)
-        _data.part("reporting.pages", "diagnosis_page").write_page(output / name, f"Diagnosis of {name}")
-    sheets = {"Ranking": table, "Curves at 15 degC": curves}
-    names = ["comparison.html", "comparison.xlsx"]
-    said = ""
-    if same_machine:
-        machine = made.same_machine(draws)
-        write_table(output / "machine.csv", machine.table)
-        sheets["Machine"], said = machine.table, str(machine)
-        names.append("machine.csv")
-    _data.part("exports.formats", "xlsx").write_sheets(output / "comparison.xlsx", sheets)
-    _data.part("reporting.pages", "comparison").write_page(output / "comparison.html", table, curves, said)
+    table, machine = made.table, made.same_machine(draws) if same_machine else None
+    names = made.write(output, machine)
     for row in table.itertuples():
         place = f"{row.rank_low}" if row.rank_low == row.rank_high else f"{row.rank_low}-{row.rank_high}"
         click.echo(
             f"{place:>6}  {row.mix}: |E*|(15 degC, 10 Hz) = {row.E_MPa:.0f} MPa "
             f"({row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}); {_found(row.causes, row.possible_causes)}"
         )
-    if said:
-        click.echo(f"\n{said}")
+    if machine is not None:
+        click.echo(f"\n{machine}")
     click.echo(f"\nWritten to {output}: {', '.join(names)}, and a folder for each mix.")
 
 

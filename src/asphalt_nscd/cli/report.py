@@ -25,7 +25,9 @@ def command(
         key="source",
         type=PART,
     ),
-    captions: Path = option("Folder of captions, an .rst file for each entry."),
+    captions: tuple[Path, ...] = option(
+        "The caption of each entry, NAME.rst; repeatable.", (), key="caption"
+    ),
     output: Path = OUTPUT,
 ) -> None:
     """Put all results of a study into one HTML file. Its first page is made from measured=CSV

@@ -12,12 +12,15 @@ def command(
     browser: bool = option("Whether to open the page.", True),
 ) -> None:
     """Open a page on this machine to drop measurements on; nothing leaves the machine."""
+    import signal
+    import sys
     import webbrowser
 
     try:
         from werkzeug.serving import WSGIRequestHandler, make_server
 
         from asphalt_nscd.web.app import create_app
+        from asphalt_nscd.web.janitor import watch
     except ModuleNotFoundError as error:
         # Any other module that is missing is a fault of ours.
         if error.name not in ("flask", "werkzeug"):
@@ -36,6 +39,11 @@ def command(
     # 127.0.0.1: no other machine can reach it.
     server = make_server("127.0.0.1", port, app, threaded=True, request_handler=Quiet)
     address = f"http://127.0.0.1:{server.server_port}/{app.config['TOKEN']}/"
+    # Windows has no SIGHUP.
+    for name in ("SIGTERM", "SIGHUP"):
+        if hasattr(signal, name):
+            signal.signal(getattr(signal, name), lambda *_: sys.exit(0))
+    janitor = watch(app.config["DESKS"].folder)
     click.echo(f"Drop measurements on {address}\nCtrl-C ends it and removes what was dropped.")
     if browser:
         webbrowser.open(address)
@@ -43,4 +51,5 @@ def command(
         server.serve_forever()
     finally:
         # However it ended, nothing of a laboratory's stays behind.
-        app.config["DESK"].close()
+        app.config["DESKS"].close()
+        janitor.communicate()

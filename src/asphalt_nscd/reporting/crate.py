@@ -34,9 +34,7 @@ def write_crate(files: Sequence[Path], root: Path, workflow: Path, provenance: P
     made_by = read_json(provenance)
     crate = ROCrate(version="1.1")  # that on which the profiles rest
     crate.name = f"Study {made_by['study']['study']} of asphalt-nscd"
-    crate.description = (
-        "Measurements, laws, simulated bending tests and their diagnosis; report.html shows them."
-    )
+    crate.description = "Measurements, laws, simulated tests and their diagnosis; report.html shows them."
     crate.license = crate.add(_work(crate, LICENCE, "MIT License"))
     # When the results were made, not when they were packed.
     crate.datePublished = datetime.fromtimestamp(provenance.stat().st_mtime, UTC)

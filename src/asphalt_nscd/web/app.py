@@ -6,20 +6,34 @@ import re
 import secrets
 import shutil
 import tempfile
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from flask import Flask, Response, abort, jsonify, render_template, request, send_from_directory
+from flask import (
+    Flask,
+    Response,
+    abort,
+    jsonify,
+    redirect,
+    render_template,
+    request,
+    send_from_directory,
+    url_for,
+)
 from werkzeug.exceptions import HTTPException
 
 from asphalt_nscd.api.laws import TITLES
+from asphalt_nscd.files.options import options_of
 from asphalt_nscd.measurements.kinds import TEST_TYPES
+from asphalt_nscd.reporting.settings import Heading
 from asphalt_nscd.table_import.campaign import TABLES
 from asphalt_nscd.table_import.quantities import MEASURED
 from asphalt_nscd.web.work import SECONDS_TO_DIAGNOSE, SECONDS_TO_READ, Choices, Job
 
 MOST_BYTES = 40_000_000  # of all files of one drop
 MOST_FILES = 100
+MOST_DESKS = 20
 # What a page may load: nothing from elsewhere.
 # Inline, because each of our pages is one file with its own style and script.
 POLICY = (
@@ -29,12 +43,15 @@ POLICY = (
 
 
 class Desk:
-    """The files of the one user, and the one piece of work that may be under way."""
+    """What one tab of the browser works on: its files, and the one piece of work that may be under way."""
 
-    def __init__(self) -> None:
-        self.folder = Path(tempfile.mkdtemp(prefix="asphalt-nscd-"))
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        # As mkdtemp makes it: other users of the machine cannot look in.
+        self.folder.mkdir(mode=0o700)
         self.files: list[Path] = []
         self.choices = Choices()
+        self.reading: dict[str, Any] | None = None  # what the page was told of the files
         self.job: Job | None = None
 
     @property
@@ -46,12 +63,11 @@ class Desk:
         """Whether a job runs."""
         return self.job is not None and self.job.look() == "running"
 
-    def clear(self) -> None:
-        """Forget files and job."""
-        shutil.rmtree(self.folder, ignore_errors=True)
-        # As mkdtemp made it: other users of the machine cannot look in.
-        self.folder.mkdir(mode=0o700)
-        self.files, self.job = [], None
+    def begin(self, task: str, paths: list[Path], seconds: float) -> Response:
+        """Start a job that writes into the folder of results."""
+        self.output.mkdir(exist_ok=True)
+        self.job = Job(task, paths, self.choices, self.output, seconds)
+        return jsonify(state="running")
 
     def close(self) -> None:
         """Stop the job and remove the folder."""
@@ -60,12 +76,37 @@ class Desk:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
+class Desks:
+    """The desks of all tabs by their names, in one folder."""
+
+    def __init__(self) -> None:
+        self.folder = Path(tempfile.mkdtemp(prefix="asphalt-nscd-"))
+        self.desks: dict[str, Desk] = {}
+
+    def at(self, name: str, anew: bool = False) -> Desk:
+        """The desk of a name, an empty one if it is new or wanted `anew`; of too many the oldest idle one goes."""
+        if anew and name in self.desks:
+            self.desks.pop(name).close()
+        if name not in self.desks:
+            idle = [other for other, desk in self.desks.items() if not desk.busy()]
+            if len(self.desks) >= MOST_DESKS and idle:
+                self.desks.pop(idle[0]).close()
+            self.desks[name] = Desk(self.folder / name)
+        return self.desks[name]
+
+    def close(self) -> None:
+        """Stop all jobs and remove all files."""
+        for desk in self.desks.values():
+            desk.close()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
 def create_app(token: str | None = None) -> Flask:
     """The application; `app.config["TOKEN"]` stands in every address."""
     app = Flask(__name__, static_folder=None)
     token = secrets.token_urlsafe(24) if token is None else token
-    desk = Desk()
-    app.config.update(TOKEN=token, DESK=desk, MAX_CONTENT_LENGTH=MOST_BYTES, MAX_FORM_PARTS=MOST_FILES + 10)
+    desks = Desks()
+    app.config.update(TOKEN=token, DESKS=desks, MAX_CONTENT_LENGTH=MOST_BYTES, MAX_FORM_PARTS=MOST_FILES + 10)
 
     @app.before_request
     def only_the_user() -> None:
@@ -106,83 +147,135 @@ def create_app(token: str | None = None) -> Flask:
         return jsonify(error=f"{said}."), error.code or 500
 
     @app.get("/<token>/")
-    def page(token: str) -> str:
+    def new_desk(token: str) -> Any:
+        """Each tab has a desk of its own, whose address a reload keeps."""
+        return redirect(url_for("page", token=token, desk=secrets.token_hex(6)))
+
+    @app.get("/<token>/<desk>/")
+    def page(token: str, desk: str) -> str:
+        _named(desk)
         units = {name: list(of) for name, (_, of) in MEASURED.items()}
+        heading = {name: one.help for name, one in options_of(Heading).items()}
         return render_template(
-            "page.html", units=units, laws=TITLES, kinds=TEST_TYPES, endings=", ".join(TABLES)
+            "page.html",
+            units=units,
+            laws=TITLES,
+            kinds=TEST_TYPES,
+            endings=", ".join(TABLES),
+            heading=heading,
         )
 
-    @app.post("/<token>/files")
-    def drop(token: str) -> Response:
+    @app.get("/<token>/<desk>/state")
+    def state(token: str, desk: str) -> Response:
+        """What a page that was loaded again shows."""
+        at = desks.at(_named(desk))
+        job = None if at.job is None else _told(at.job)
+        return jsonify(reading=at.reading, choices=asdict(at.choices), job=job)
+
+    @app.post("/<token>/<desk>/files")
+    def drop(token: str, desk: str) -> Response:
         """Take the files, and say how they were read."""
-        if desk.busy():
-            abort(409, "a diagnosis is under way; wait for it or cancel it")
-        given = [one for one in request.files.getlist("files") if one.filename]
-        if not given or len(given) > MOST_FILES:
-            abort(400, f"give between one and {MOST_FILES} files")
-        desk.clear()
-        for one in given:
-            path = desk.folder / "files" / safe_name(one.filename or "")
-            path.parent.mkdir(exist_ok=True)
-            if path.suffix.lower() not in TABLES:
-                abort(400, f"{path.name}: give files that end in {', '.join(TABLES)}")
-            if path.exists():
-                abort(400, f"{path.name}: two files have this name")
-            one.save(path)
-            desk.files.append(path)
-        # They were of the columns of other files.
-        desk.choices = Choices()
-        return _read(desk)
+        _idle(desks.at(_named(desk)))
+        given = _given()
+        at = desks.at(desk, anew=True)
+        at.files = _saved(given, at.folder / "files")
+        return _read(at)
 
-    @app.post("/<token>/read")
-    def again(token: str) -> Response:
+    @app.post("/<token>/<desk>/read")
+    def again(token: str, desk: str) -> Response:
         """Read the files again with what the user chose from the menus."""
-        if not desk.files or desk.busy():
-            abort(409, "drop files first, or wait for the diagnosis")
-        desk.choices = _choices(request.get_json(silent=True))
-        return _read(desk)
+        at = _idle(desks.at(_named(desk)), files=True)
+        at.choices = _choices(request.get_json(silent=True))
+        return _read(at)
 
-    @app.post("/<token>/diagnose")
-    def start(token: str) -> Response:
-        if not desk.files:
-            abort(409, "drop files first")
-        if desk.busy():
-            abort(409, "a diagnosis is under way; wait for it or cancel it")
-        desk.choices = _choices(request.get_json(silent=True))
+    @app.post("/<token>/<desk>/diagnose")
+    def start(token: str, desk: str) -> Response:
+        at = _idle(desks.at(_named(desk)), files=True)
+        at.choices = _choices(request.get_json(silent=True))
         # An older result would stand beside the new one, or for it after a failure.
-        shutil.rmtree(desk.output, ignore_errors=True)
-        desk.output.mkdir()
-        desk.job = Job("diagnose", desk.files, desk.choices, desk.output, SECONDS_TO_DIAGNOSE)
-        return jsonify(state="running")
+        shutil.rmtree(at.output, ignore_errors=True)
+        return at.begin("diagnose", at.files, SECONDS_TO_DIAGNOSE)
 
-    @app.get("/<token>/job")
-    def job(token: str) -> Response:
-        if desk.job is None:
+    @app.post("/<token>/<desk>/compare")
+    def compare(token: str, desk: str) -> Response:
+        """Diagnose the files of another mix too, and set both beside each other."""
+        at = _idle(desks.at(_named(desk)), files=True)
+        shutil.rmtree(at.folder / "other", ignore_errors=True)
+        other = _saved(_given(), at.folder / "other")
+        return at.begin("compare", [*at.files, *other], 2.0 * SECONDS_TO_DIAGNOSE)
+
+    @app.get("/<token>/<desk>/job")
+    def job(token: str, desk: str) -> Response:
+        at = desks.at(_named(desk))
+        if at.job is None:
             abort(404, "nothing was started")
-        state = desk.job.look()
-        return jsonify(state=state, stage=desk.job.stage, share=desk.job.share, **desk.job.result)
+        return jsonify(**_told(at.job))
 
-    @app.post("/<token>/cancel")
-    def cancel(token: str) -> Response:
-        if desk.job is not None:
-            desk.job.stop()
+    @app.post("/<token>/<desk>/cancel")
+    def cancel(token: str, desk: str) -> Response:
+        at = desks.at(_named(desk))
+        if at.job is not None:
+            at.job.stop()
         return jsonify(state="cancelled")
 
-    @app.get("/<token>/results/<name>")
-    def result(token: str, name: str) -> Response:
+    @app.get("/<token>/<desk>/results/<path:name>")
+    def result(token: str, desk: str, name: str) -> Response:
+        at = desks.at(_named(desk))
         # Only names that the job has listed, so that no name leads out of the folder.
-        if desk.job is None or desk.job.state != "done" or name not in desk.job.result["files"]:
+        if at.job is None or at.job.state != "done" or name not in at.job.result["files"]:
             abort(404, "no such file")
         # One address for both: shown in the page's frame, or taken away.
-        return send_from_directory(desk.output, name, as_attachment="download" in request.args)
+        return send_from_directory(at.output, name, as_attachment="download" in request.args)
 
     return app
+
+
+def _named(desk: str) -> str:
+    """The name of a desk as the page makes it: no path of a folder."""
+    if not re.fullmatch(r"[0-9a-f]{12}", desk):
+        abort(404, "no such desk; take the address that the terminal shows")
+    return desk
+
+
+def _idle(desk: Desk, files: bool = False) -> Desk:
+    """The desk, if no job runs at it, and if it has files where these are asked for."""
+    if files and not desk.files:
+        abort(409, "drop files first")
+    if desk.busy():
+        abort(409, "a diagnosis is under way; wait for it or cancel it")
+    return desk
+
+
+def _given() -> list[Any]:
+    given = [one for one in request.files.getlist("files") if one.filename]
+    if not given or len(given) > MOST_FILES:
+        abort(400, f"give between one and {MOST_FILES} files")
+    names = [safe_name(one.filename or "") for one in given]
+    for name in names:
+        if Path(name).suffix.lower() not in TABLES:
+            abort(400, f"{name}: give files that end in {', '.join(TABLES)}")
+        if names.count(name) > 1:
+            abort(400, f"{name}: two files have this name")
+    return given
+
+
+def _saved(given: list[Any], folder: Path) -> list[Path]:
+    folder.mkdir()
+    paths = [folder / safe_name(one.filename or "") for one in given]
+    for one, path in zip(given, paths, strict=True):
+        one.save(path)
+    return paths
 
 
 def _read(desk: Desk) -> Response:
     job = Job("read", desk.files, desk.choices, None, SECONDS_TO_READ)
     job.finish()
-    return jsonify(state=job.state, files=[path.name for path in desk.files], **job.result)
+    desk.reading = {"state": job.state, "files": [path.name for path in desk.files], **job.result}
+    return jsonify(**desk.reading)
+
+
+def _told(job: Job) -> dict[str, Any]:
+    return {"state": job.look(), "stage": job.stage, "share": job.share, **job.result}
 
 
 def _choices(content: Any) -> Choices:
@@ -190,12 +283,13 @@ def _choices(content: Any) -> Choices:
     if not isinstance(content, dict):
         return Choices()
     kind, law = content.get("measured_in") or None, content.get("law") or "2s2p1d"
-    columns = content.get("columns") or {}
-    if kind not in (None, *TEST_TYPES) or law not in TITLES or not isinstance(columns, dict):
+    columns, heading = (content.get(name) or {} for name in ("columns", "heading"))
+    if kind not in (None, *TEST_TYPES) or law not in TITLES or not set(heading) <= set(options_of(Heading)):
         abort(400, "an unknown choice")
-    if not all(isinstance(text, str) and len(text) < 200 for pair in columns.items() for text in pair):
+    texts = [text for pairs in (columns, heading) for pair in dict(pairs).items() for text in pair]
+    if not all(isinstance(text, str) and len(text) < 200 for text in texts):
         abort(400, "an unknown choice")
-    return Choices(kind, columns, law)
+    return Choices(kind, columns, law, heading)
 
 
 def safe_name(name: str) -> str:

@@ -5,10 +5,13 @@ from __future__ import annotations
 import multiprocessing
 import os
 import sys
+import threading
 import time
 import traceback
+import zipfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -25,17 +28,20 @@ MOST_MEMORY = 4 * 2**30  # bytes of addresses
 SECONDS_TO_READ = 60.0
 SECONDS_TO_DIAGNOSE = 900.0
 ROWS_SHOWN = 6
+MOST_ROWS_OF_EXCEL = 1_048_576
+MOST_UNPACKED = 50_000_000  # bytes
 TOO_LONG = "this took too long; give the table of results of one campaign alone."
 BROKEN = "this could not be done, and the fault is ours; the terminal of `asphalt-nscd serve` says where."
 
 
 @dataclass(frozen=True)
 class Choices:
-    """What the user said beside the files: the kind of test, columns of theirs by what they hold, and the law."""
+    """What the user said beside the files: kind of test, columns by what they hold, law, head of report.pdf."""
 
     measured_in: str | None = None
     columns: Mapping[str, str] | None = None
     law: str = "2s2p1d"
+    heading: Mapping[str, str] = field(default_factory=dict)
 
 
 class Job:
@@ -95,6 +101,7 @@ class Job:
 
 def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, output: Path | None) -> None:
     """In the new process: the task, and its result or one sentence through the pipe."""
+    threading.Thread(target=_end_with_the_server, daemon=True).start()
     # Before numpy is loaded, which looks at them once.
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ[name] = "1"
@@ -108,7 +115,8 @@ def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, outpu
         if output is None:
             content = read_tables(paths, choices)
         else:
-            content = _diagnosed(paths, choices, output, lambda *said: pipe.send(("progress", said)))
+            work = {"diagnose": _diagnosed, "compare": _compared}[task]
+            content = work(paths, choices, output, lambda *said: pipe.send(("progress", said)))
         pipe.send(("done", content))
     except InputError as error:
         pipe.send(("failed", {"error": _shorten_paths(str(error), paths), "columns": _columns(paths)}))
@@ -119,11 +127,21 @@ def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, outpu
         pipe.send(("failed", {"error": BROKEN}))
 
 
+def _end_with_the_server() -> None:
+    """A server that was killed cannot stop its jobs."""
+    server = multiprocessing.parent_process()
+    if server is not None:
+        server.join()
+        os._exit(1)
+
+
 def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
     """How the files were read, as JSON values: sentences, first tests, what each of the user's columns is taken for."""
     from asphalt_nscd.table_import.campaign import read_campaign
     from asphalt_nscd.table_import.frames import frame_of
 
+    for path in paths:
+        _refuse_far_rows(path)
     campaign, form = read_campaign(paths, None, choices.columns, choices.measured_in)
     table = frame_of(campaign)
     shown = [name for name in table.columns if (table[name].notna() & (table[name] != "")).any()]
@@ -140,6 +158,22 @@ def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
         ],
         "columns": _columns(paths),
     }
+
+
+def _refuse_far_rows(path: Path) -> None:
+    """No spreadsheet has so many rows; a reader would fill in those that are missing."""
+    if path.suffix.lower() not in (".xlsx", ".xlsm") or not zipfile.is_zipfile(path):
+        return
+    with zipfile.ZipFile(path) as archive:
+        parts = [part for part in archive.infolist() if part.filename.startswith("xl/worksheets/")]
+        if sum(part.file_size for part in parts) > MOST_UNPACKED:
+            return  # refused by the reader
+        for part in parts:
+            for row in re.findall(rb'<row [^>]*?\br="(\d+)"', archive.read(part)):
+                if int(row) > MOST_ROWS_OF_EXCEL:
+                    raise InputError(
+                        f"{path}: a sheet names row {int(row)}, which none has; save the file anew."
+                    )
 
 
 def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
@@ -212,21 +246,20 @@ def _shorten_paths(text: str, paths: Sequence[Path]) -> str:
 def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: Any) -> dict[str, Any]:
     """Diagnose, and write everything into the folder: what the first screen says, and the names of the files."""
     from asphalt_nscd.api.diagnosis import diagnose
-    from asphalt_nscd.api.tables import campaign_in
     from asphalt_nscd.diagnosis.record.stiffness_only import fit_stiffness, has_no_phase
     from asphalt_nscd.diagnosis.settings import Known
     from asphalt_nscd.exports.formats.xlsx import corrected_workbook
-    from asphalt_nscd.reporting.pages import stiffness_page
-    from asphalt_nscd.reporting.pages.diagnosis_page import write_page
+    from asphalt_nscd.reporting.pages import diagnosis_page, stiffness_page
     from asphalt_nscd.reporting.pages.handout import write_handout
+    from asphalt_nscd.reporting.settings import Heading
 
     title = f"Diagnosis of {', '.join(path.name for path in paths)}"
-    campaign = campaign_in(list(paths), None, choices.columns, choices.measured_in)
+    campaign = _campaign(paths, choices)
     if has_no_phase(campaign):
         curve = fit_stiffness(campaign)
         curve.write(output)
         stiffness_page.write_page(output, title, str(curve))
-        return {"reported": curve.reported, "files": _names(output)}
+        return {"reported": curve.reported, "page": diagnosis_page.PAGE, "files": _names(output)}
     diagnosis = diagnose(
         campaign,
         measured_in=choices.measured_in,
@@ -236,13 +269,52 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     diagnosis.outcome.write(output)
     progress("Write", 0.95)
     corrected_workbook(output)
-    write_handout(output, title)
-    write_page(output, title)
-    return {
-        "reported": diagnosis.content["reported"],
-        "files": _names(output),
-    }
+    write_handout(output, title, Heading(**choices.heading))
+    diagnosis_page.write_page(output, title)
+    _export(output)
+    reported = diagnosis.content["reported"]
+    return {"reported": reported, "page": diagnosis_page.PAGE, "files": _names(output)}
+
+
+def _campaign(paths: Sequence[Path], choices: Choices) -> Any:
+    from asphalt_nscd.api.tables import campaign_in
+
+    return campaign_in(list(paths), None, choices.columns, choices.measured_in)
+
+
+def _export(output: Path) -> None:
+    """The law for each program, beside the other files; one that cannot be met is left out."""
+    from asphalt_nscd.exports.card import Settings
+    from asphalt_nscd.exports.export import export_law
+    from asphalt_nscd.exports.formats import FORMATS, format_of
+    from asphalt_nscd.exports.law import read_law_file
+
+    if not (output / "law.json").is_file():
+        return
+    law = read_law_file(output / "law.json")
+    for form in FORMATS:
+        with suppress(InputError):
+            export_law(law, Settings(), form, output / f"law_{form}{format_of(form).ENDINGS[0]}")
+
+
+def _compared(paths: Sequence[Path], choices: Choices, output: Path, progress: Any) -> dict[str, Any]:
+    """Two mixes, whose files lie in two folders, beside each other; what was chosen holds for the first."""
+    from asphalt_nscd.api.comparison import compare
+
+    mixes: dict[str, Any] = {}
+    for folder in dict.fromkeys(path.parent for path in paths):
+        own = [path for path in paths if path.parent == folder]
+        name = own[0].stem if own[0].stem not in mixes else f"{own[0].stem} (2)"
+        mixes[name] = own if mixes else _campaign(own, choices)
+    made = compare(
+        mixes,
+        measured_in=choices.measured_in,
+        law=choices.law,
+        progress=lambda stage, done, total: progress(stage, 0.9 * done / total),
+    )
+    page, *_ = made.write(output)
+    return {"page": page, "files": _names(output)}
 
 
 def _names(folder: Path) -> list[str]:
-    return sorted(path.name for path in folder.iterdir() if path.is_file())
+    return sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())

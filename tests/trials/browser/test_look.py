@@ -72,7 +72,9 @@ def test_report_has_nothing_to_complain_of(found, browser, tmp_path, width):
         Entry(f"{place} Part {place}", tmp_path / name) for place, name in enumerate(("a.png", "t.html"))
     ]
     (tmp_path / "report.html").write_text(
-        assemble("tiny", page, [*entries, Entry("2 Last", tmp_path / "diagnosis.html")], tmp_path)
+        assemble(
+            "tiny", page, [*entries, Entry("2 Last", tmp_path / "diagnosis.html")], tmp_path.glob("*.rst")
+        )
     )
     assert found(tmp_path / "report.html", width) == []
     assert found(tmp_path / "report.html", width, use) == []

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
@@ -12,6 +14,7 @@ from matplotlib.patches import Patch
 
 from asphalt_nscd.diagnosis.criteria import NOTABLE
 from asphalt_nscd.diagnosis.written import BEFORE_AFTER, RESIDUALS, conditions, read_diagnosis, read_residuals
+from asphalt_nscd.measurements.tables import averages, read_tests
 from asphalt_nscd.reporting.figures import numbers, panels, style
 
 ROWS = {
@@ -21,10 +24,13 @@ ROWS = {
 
 
 @style.journal
-def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
-    """Draw one cell for each condition: |E*| above, phase below; each quantity has one scale for before and after."""
-    content = read_diagnosis(diagnosis)
-    means = conditions(read_residuals(residuals), content["scatter"])
+def draw(residuals: list[Path], diagnosis: list[Path], extended: Sequence[Path] = ()) -> Figure:
+    """Draw one cell for each condition: |E*| above, phase below; each quantity has one scale for before and after.
+
+    After are the tests that the study simulated again (`extended`), if it did, else what the diagnosis modelled.
+    """
+    content, tests = read_diagnosis(diagnosis), read_residuals(residuals)
+    means = conditions(against(tests, extended) if extended else tests, content["scatter"])
     figure, axes = style.new_figure(style.SINGLE, 112.0, rows=2, columns=2, sharex=True, sharey=True)
     letters = iter("abcd")
     for row, (quantity, (words, _)) in zip(axes, ROWS.items(), strict=True):
@@ -56,6 +62,19 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
         borderpad=0.1,
     )
     return figure
+
+
+def against(tests: pd.DataFrame, extended: Sequence[Path]) -> pd.DataFrame:
+    """Residuals with those after from the mean over simulated samples: 100 ln |E*| ratio and difference of phases."""
+    simulated = averages(read_tests(extended))[["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]]
+    both = tests.merge(
+        simulated, on=["temperature_C", "frequency_Hz"], how="left", suffixes=("", "_simulated")
+    )
+    modulus, phase = both["E_MPa_simulated"], both["phase_deg_simulated"]
+    off = {"E_after_MPa": modulus, "phase_after_deg": phase}
+    off["residual_E_after_percent"] = 100.0 * np.log(both["E_MPa"] / modulus)
+    off["residual_phase_after_deg"] = both["phase_deg"] - phase
+    return both.assign(**off)
 
 
 def panel(

@@ -33,16 +33,23 @@ class Entry:
 
 
 def assemble(
-    study: str, page: Mapping[str, Any], entries: Iterable[Entry], captions: Path, folder: Path = Path()
+    study: str,
+    page: Mapping[str, Any],
+    entries: Iterable[Entry],
+    captions: Iterable[Path],
+    folder: Path = Path(),
 ) -> str:
     """The report as one HTML file.
 
-    `page` is the first page; `captions` is a folder with a reStructuredText file for each entry, its first line in
+    `page` is the first page; `captions` are reStructuredText files with the names of the entries, their first line in
     bold. `folder` is where the report will stand; from there links lead to the files behind figures and tables.
     """
+    by_name = {path.stem: path for path in captions}
     parts: dict[str, list[dict[str, Any]]] = {}
     for entry in entries:
-        parts.setdefault(entry.part, []).append(_shown(entry, captions / f"{entry.name}.rst", folder))
+        parts.setdefault(entry.part, []).append(
+            _shown(entry, by_name.get(entry.name, Path(f"{entry.name}.rst")), folder)
+        )
     ordered = {
         part.partition(" ")[2]: sorted(shown, key=lambda one: one["order"])
         for part, shown in sorted(parts.items())

@@ -13,6 +13,7 @@ from asphalt_nscd.files.store import atomic_path
 from asphalt_nscd.reporting.pages.charts import Chart, curves
 from asphalt_nscd.reporting.pages.style import filled
 
+PAGE = "comparison.html"
 HEAD = (
     *("mix", "rank", "|E*| [MPa]", "95 %", "phase [°]", "95 %", "tests", "left out"),
     *("certain causes", "possible causes"),

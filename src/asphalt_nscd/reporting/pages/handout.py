@@ -83,7 +83,7 @@ class _Report(FPDF):
             "text_align": "LEFT",
         }
         look["headings_style"] = FontFace(emphasis="BOLD", fill_color=PALE)
-        with self.table(col_widths=tuple(widths), **look | options) as table:  # type: ignore[arg-type]
+        with self.table(col_widths=tuple(widths), **look | options) as table:
             for line in cells:
                 table.row(list(line))
 
