@@ -38,7 +38,7 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
         why = _NAMES if row == cells.header else _rejection(row, keys, results)
         why = why or (_MEAN if means and of_other else None)
         (kept if why is None else left.setdefault(why, [])).append((line, row))
-    for line, row in left.get(_REMARK, []):
+    for line, row in (*left.get(_REMARK, []), *left.get(_NOT_MEASURED, [])):
         # Of a second table, which would be taken for more of the first.
         if told_above([(line, row)])[0]:
             raise InputError(
