@@ -157,3 +157,34 @@ def test_a_workbook_of_open_document_is_read(tmp_path):
 def test_one_name_above_several_columns_is_named(tmp_path):
     rows = [[*KEYS, "Wert", "Wert", "phase (°)"], [4, 10, 9000, 9100, 12]]
     refused(read, tmp_path, rows, E_MPa="Wert", names=["t.csv: 2 columns are called 'Wert'"])
+
+
+def test_the_mend_names_the_column_and_its_unit(tmp_path):
+    rows = [
+        ["specimen", *KEYS, "Wert (GPa)", "Winkel [rad]"],
+        *([*key, e / 1e3, 0.2] for key, (e, _) in TESTS.items()),
+    ]
+    mends = ['--column E_GPa="Wert (GPa)"', '--column phase_rad="Winkel [rad]"']
+    refused(read, tmp_path, rows, "t.xlsx", names=mends)
+    campaign = read(tmp_path, rows, "t.xlsx", **{"E_GPa": "Wert (GPa)", "phase_rad": "Winkel [rad]"})
+    assert {key: e for key, (e, _) in held(campaign).items()} == {key: e for key, (e, _) in TESTS.items()}
+
+
+def test_tables_below_lines_of_their_specimens(tmp_path):
+    rows = []
+    for s in SPECIMENS:
+        rows += [["Specimen ref.", s], ["Date of test", "12/05/2023"], [*KEYS, "E* (MPa)", "phase (°)"]]
+        rows += [[*key, *both] for (one, *key), both in TESTS.items() if one == s]
+    assert held(read(tmp_path, rows, "t.xlsx")) == TESTS
+    assert held(read(tmp_path, [[None, *row] for row in rows], "t.xlsx")) == TESTS
+    unnamed = [row for n, row in enumerate(rows) if row[0] != KEYS[0] or n == 2]
+    refused(read, tmp_path, unnamed, "t.xlsx", names=["line 10", "stands among the tests"])
+
+
+def test_temperature_and_frequency_may_stand_a_line_deeper(tmp_path):
+    head = [[None, None, "E* (MPa)", None, None, "phase (°)", None, None], [*KEYS, *"123", *"123"]]
+    rows = [
+        [t, f, *(TESTS[s, t, f][q] for q in (0, 1) for s in SPECIMENS)]
+        for t, f in product(TEMPERATURES, FREQUENCIES)
+    ]
+    assert held(read(tmp_path, [*head, *rows], "t.xlsx")) == TESTS

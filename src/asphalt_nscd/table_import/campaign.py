@@ -185,7 +185,10 @@ def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:
                 raise
             skipped.append(refused(f"sheet {one.name} of {path.name}", error, one.path))
     if not parts:
-        raise NotTests(f"{path}: no sheet holds tests; it has {listed(skipped)}; give a table of moduli.")
+        raise NotTests(
+            f"{path}: no sheet holds tests; it has {listed(skipped)}; "
+            f"{common_mend(skipped) or 'give a table of moduli.'}"
+        )
     if not all(part.block.means for part in parts):
         skipped += [SkippedFile(part.source, "means of other sheets") for part in parts if part.block.means]
         parts = [part for part in parts if not part.block.means]

@@ -136,12 +136,14 @@ def _held(rows: list[Row]) -> list[Row]:
 def build_cells(path: Path, rows: list[Row], notes: list[str]) -> Cells:
     """A table from its rows; a title above its line of names is left out."""
     rows, notes = list(rows), list(notes)
-    while len(rows) > 2 and len(rows[0][1]) == 1 < len(rows[1][1]):
+    while len(rows) > 2 and len(rows[0][1]) == 1 < max(len(cells) for _, cells in rows[1:]):
         notes.append(f"line {rows[0][0]} taken for a title: {rows[0][1][0]!r}")
         rows.pop(0)
     # A column without a name is called by its number.
     header = [name or f"column {place}" for place, name in enumerate(rows[0][1], start=1)]
-    return Cells(path, header, _fitted(path, header, _drop_remarks(rows[1:], len(header), notes)), notes)
+    return Cells(
+        path, header, _fitted(path, header, _drop_remarks(rows[1:], len(header), notes), notes), notes
+    )
 
 
 def _drop_remarks(rows: list[Row], size: int, notes: list[str]) -> list[Row]:
@@ -169,16 +171,22 @@ def _first(cells: list[str]) -> str:
     return next(cell for cell in cells if cell)
 
 
-def _fitted(path: Path, header: list[str], rows: list[Row]) -> list[Row]:
+def _fitted(path: Path, header: list[str], rows: list[Row], notes: list[str]) -> list[Row]:
     """Rows filled up to the length of the header, which none may exceed."""
+    from asphalt_nscd.table_import.heading import known
+    from asphalt_nscd.table_import.quantities import units_in
+
+    above = [*header, *(rows[0][1] if rows else [])]
+    strange = next((name for name in above if units_in(name) and known(name) is None), "")
     for line, cells in rows:
         if len(cells) > len(header):
-            mend = (
-                f"write a name above {cells[len(header)]!r}, or clear what is no result"
-                # No commas part the cells of a workbook, so no word of them. A sheet is called `a.xlsx, sheet B`.
-                if ".xls" in path.name.casefold()
-                else "if decimals are written with a comma, separate the columns with semicolons"
-            )
+            mend = f"write a name above {cells[len(header)]!r}, or clear what is no result"
+            if "columns separated by commas" in notes:
+                mend = "if decimals are written with a comma, separate the columns with semicolons"
+            elif strange:
+                mend = (
+                    f"{strange!r} is not known: write temperature, frequency, |E*| or phase before its unit"
+                )
             raise InputError(
                 f"{path}, line {line}: {len(cells)} fields under {len(header)} column names; {mend}."
             )

@@ -12,6 +12,7 @@ from asphalt_nscd.table_import.cells import Cells, Row, Sheet
 from asphalt_nscd.table_import.decimals import match_decimal_mark
 from asphalt_nscd.table_import.header_lines import NUMBER, told_above
 from asphalt_nscd.table_import.heading import KEYS, SPECIMEN, Heading, condition, known, read_heading
+from asphalt_nscd.table_import.quantities import units_in
 from asphalt_nscd.table_import.words import ABSENT, COMPUTED_SHEET
 
 _ABOVE = 4  # lines above a matrix that say what it is
@@ -53,6 +54,7 @@ def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
     values: list[_Value] = []
     headings: dict[str, str] = {}
     axes: set[tuple[str, str]] = set()
+    unnamed: list[str] = []
     for sheet in sheets:
         called = "" if sheet.alone else sheet.called
         matrices = list(_matrices(sheet.rows, called))
@@ -62,6 +64,9 @@ def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
             notes.append(f"skipped sheet {called}, computed of others")
             continue
         for found, axis, named in matrices:
+            if not found:
+                unnamed += named.values()
+                continue
             values += (
                 [replace(one, key=(one.key[0] or called, *one.key[1:])) for one in found] if whole else found
             )
@@ -71,6 +76,11 @@ def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
                     raise InputError(
                         f"{path}: {headings[quantity]!r} and {name!r} stand above two matrices; give all in one unit."
                     )
+    if unnamed and not {"E_MPa", "phase_deg"} <= headings.keys() and "E1_MPa" not in headings:
+        raise InputError(
+            f"{path}: {unnamed[0]!r} above a matrix is no quantity that is known; write |E*| or phase for it, with "
+            "its unit."
+        )
     if len(axes) > 1:
         raise InputError(
             f"{path}: the matrices have {_listed(axes)} along their sides; give all in one unit."
@@ -125,8 +135,12 @@ def _matrices(rows: list[Row], called: str) -> Iterable[tuple[list[_Value], tupl
         if not names and title.is_result:
             names = {place: title}
         if axes is None or not names:
+            if axes is not None and (unknown := _unknown([row for _, row in above])):
+                yield [], (axes[1].name, axes[0].name), {"": unknown}
             at += 1 + size
             continue
+        for unknown in (one.name for one in names.values() if one.column is None):
+            yield [], (axes[1].name, axes[0].name), {"": unknown}
         across, down = axes
         turned = across.quantity != "frequency_Hz"
         values = []
@@ -217,6 +231,13 @@ def _number(text: str) -> float:
     return float(text.replace(",", ".").replace("−", "-"))
 
 
+def _unknown(above: list[list[str]]) -> str:
+    """The text that stands above a matrix in place of a quantity, with a unit."""
+    return next(
+        (cell for row in reversed(above) for cell in row if units_in(cell) and known(cell) is None), ""
+    )
+
+
 def _axes(
     head: list[str], body: list[list[str]], above: Sequence[Row], place: int
 ) -> tuple[_Axis, _Axis] | None:
@@ -284,8 +305,10 @@ def _quantities(above: list[list[str]], head: list[str], place: int) -> dict[int
     """What the values are, by the column that it begins at; one for all may stand anywhere above, or in the corner."""
     for row in reversed(above):
         found = {n: one for n, cell in enumerate(row) if cell and (one := read_heading(cell)).is_result}
-        beside = {n: one for n, one in found.items() if n >= place}
-        if len(beside) > 1:
+        # One that is not known ends that in front of it.
+        strange = {n: Heading(cell) for n, cell in enumerate(row) if n not in found and _unknown([[cell]])}
+        beside = {n: one for n, one in (found | strange).items() if n >= place}
+        if found and len(beside) > 1:
             return beside
         if found:
             return {place: next(iter(found.values()))}

@@ -116,6 +116,12 @@ def unit_in(header: str) -> str | None:
     return next((unit for _, unit in _splits(header) if unit and unit in _UNITS), None)
 
 
+def units_in(header: str) -> list[str]:
+    """All units in a name, wherever they stand, but those of plain numbers."""
+    parts = (_spelled(part) for part in re.split(r"[\s,;()\[\]]+", header))
+    return [unit for unit in parts if unit in _UNITS and unit not in ("", "-", "1", "%")]
+
+
 def is_unit(cell: str) -> bool:
     """Whether a cell holds nothing but a unit, as in a second line below the names."""
     return _spelled(cell.strip("()[]{} ")) in _UNITS

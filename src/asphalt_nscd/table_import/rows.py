@@ -38,9 +38,10 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
         why = _NAMES if row == cells.header else _rejection(row, keys, results)
         why = why or (_MEAN if means and of_other else None)
         (kept if why is None else left.setdefault(why, [])).append((line, row))
-    for line, row in left.get(_REMARK, []):
+    for line, row in (*left.get(_REMARK, []), *left.get(_NOT_MEASURED, [])):
         # Of a second table, which would be taken for more of the first.
-        if told_above([(line, row)])[0]:
+        # Behind the columns that lines above the names gave.
+        if any(told_above([(line, row[start:])])[0] for start in range(4)):
             raise InputError(
                 f"{cells.path}, line {line}: {' '.join(_filled(row))[:60]!r} stands among the tests; write it into a "
                 "column of its own, or the names of the columns below it."

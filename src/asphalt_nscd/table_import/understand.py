@@ -16,9 +16,9 @@ from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, chosen_columns, column_cue, name_with_unit, one_of
 from asphalt_nscd.table_import.decimals import decimal_mark, number
 from asphalt_nscd.table_import.header_lines import attach_units
-from asphalt_nscd.table_import.heading import known, read_heading
+from asphalt_nscd.table_import.heading import known, read_heading, strip_conditions
 from asphalt_nscd.table_import.melt import melted
-from asphalt_nscd.table_import.quantities import QUALITY, derived, recognise
+from asphalt_nscd.table_import.quantities import MEASURED, QUALITY, derived, recognise, units_in
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
 from asphalt_nscd.table_import.storage_loss import PARTS, SAID, WAYS, whole_modulus
 from asphalt_nscd.table_import.words import ABSENT
@@ -34,7 +34,7 @@ _WORDS = {
     "F0_N": "force",
     "z0_m": "displacement",
     "psi_deg": "phase between force and displacement",
-}
+} | PARTS
 MAY_BE_ABSENT = (*QUALITY, "microstrain")
 # Form, the angle that it lacks, the other one that stands there, and whose phase is wanted.
 _ANGLES = (
@@ -213,7 +213,10 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     for form, way, names in lacking:
         if not names:
             return form, way
-    missing = {form: next(names for one, _, names in lacking if one == form) for form in ("moduli", "peaks")}
+    missing = {
+        form: min((names for one, _, names in lacking if one == form), key=len)
+        for form in ("moduli", "peaks")
+    }
     if missing["moduli"] == ["phase_deg"] and "psi_deg" not in columns and _all_known(cells, columns):
         return "modulus", ("E_MPa",)
     for form, wanted, angle, of in _ANGLES:
@@ -230,9 +233,30 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     named = ", ".join(name[:60] for name in cells.header)
     wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
     raise (NotTests if nothing else InputError)(
-        f"{cells.path}: no {wanted} (found: {named}); write names with units, or name a column of "
-        f"yours {column_cue(missing[form][0], 'its name')}."
+        f"{cells.path}: no {wanted} (found: {named}); {_mend(cells, missing[form])}."
     )
+
+
+def _mend(cells: Cells, missing: Sequence[str]) -> str:
+    """How to name the columns of quantities that are missing: those of unknown names in a unit that fits."""
+    unknown = [name for name in cells.header if known(strip_conditions(name)) is None]
+    fitting = {
+        quantity: [
+            (name, unit) for name in unknown for unit in units_in(name) if unit in MEASURED[quantity][1]
+        ]
+        for quantity in missing
+    }
+    if several := next((quantity for quantity, names in fitting.items() if len(names) > 1), ""):
+        name, _ = fitting[several][0]
+        return f"write {_WORDS[several]} for the name in {name!r} and in the others like it, before the unit"
+    if not all(fitting.values()):
+        return f"write names with units, or name a column of yours {column_cue(missing[0], 'its name')}"
+    cues = [
+        column_cue(f"{quantity.rpartition('_')[0]}_{unit}", name)
+        for quantity, names in fitting.items()
+        for name, unit in names
+    ]
+    return f"write names that are known, or say {' and '.join(cues)}"
 
 
 def _require_plain(cells: Cells, missing: Sequence[str]) -> None:
@@ -319,6 +343,16 @@ def _word(cells: Cells, line: int, name: str, text: str) -> str:
     return text
 
 
+def _telling(cells: Cells, tests: list[tuple[object, ...]]) -> str:
+    """The name of the column whose texts tell equal tests apart."""
+    for place, name in enumerate(cells.header):
+        texts = [row[place] for _, row in cells.rows]
+        labels = known(name) is None and len(set(texts)) < len(texts) / 2
+        if labels and len(set(zip(tests, texts, strict=True))) == len(texts):
+            return name
+    return "its name"
+
+
 def _specimens(cells: Cells, values: dict[str, Values]) -> str:
     """Put a specimen to each test, and say how it was told."""
     if "specimen" in values:
@@ -333,8 +367,9 @@ def _specimens(cells: Cells, values: dict[str, Values]) -> str:
         # Nothing tells whether it is another specimen or the same again, which scatter differently.
         earlier = first.setdefault(tuple(test), line)
         if earlier != line:
+            name = _telling(cells, list(zip(*distinguishing, strict=True)))
             raise InputError(
                 f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens "
-                f"apart; add a column specimen or replicate, or say which is one, {column_cue('specimen', 'its name')}."
+                f"apart; add a column specimen or replicate, or say which is one, {column_cue('specimen', name)}."
             )
     return "no column of specimens, so all tests are taken as of one specimen"
