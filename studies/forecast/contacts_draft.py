@@ -63,7 +63,7 @@ RMAX=1.0  # over R' = R/2
 EDGE=np.concatenate([[0.],np.geomspace(LO,RMAX,NR)]); R_=0.5*(EDGE[1:]+EDGE[:-1]); AREA=0.5*(EDGE[1:]**2-EDGE[:-1]**2); INF=ring_matrix(EDGE)
 def spot(gf_edge,kf,Es,a0=0.0):
     """Stiffness over E* R' of a pair; gf_edge (m,n) fluid shear at outer edges over E*, kf (m,n) its bulk at middles."""
-    n=NR; h=np.maximum(EDGE[1:]**2-a0**2,0)/2; hm=np.maximum(R_**2-a0**2,0)/2
+    n=NR; g0=max(-a0,0.); a0=max(a0,0.); h=g0+np.maximum(EDGE[1:]**2-a0**2,0)/2; hm=g0+np.maximum(R_**2-a0**2,0)/2
     wid=np.append(R_[1:],EDGE[-1])-R_
     c=EDGE[1:]*h**3/(12*gf_edge)/wid     # (m,n)
     M=np.zeros((gf_edge.shape[0],n,n),complex); k=np.arange(n)
@@ -156,3 +156,55 @@ if __name__=='__main__':
     for p in pairs()[:4]:
         o,e,n=model(p.recipe,p.binder(),S60,parts=True)
         for k in range(0,20,3): print(p.name,'G %8.3g kPa ph %.0f'%(abs(p.binder()[k])/3e3,np.degrees(np.angle(p.binder()[k]))),'meas %6.0f %4.1f'%(abs(p.measured[k])/1e6,np.degrees(np.angle(p.measured[k]))),'model %6.0f %4.1f ds %6.0f net %6.0f %4.1f'%(abs(o[k])/1e6,np.degrees(np.angle(o[k])),abs(e[k])/1e6,abs(n[k])/1e6,np.degrees(np.angle(n[k]))))
+
+def model2(r,E,St,Z=6.,rig=.35,p0=10e3,air=True,fits=1.0,sat=True,nsize=40,parts=False,flat=1.0,kt=0.0,start=FIL,gap=0.0,cold=True):
+    g=r.grading; top=g.sieve[np.flatnonzero(g.passing>=1-1e-12)[0]]
+    d=np.unique(np.concatenate([np.geomspace(FINEST,FIL,12),np.geomspace(FIL,top,nsize)]))
+    P=g.passing_at(d); f63=float(g.passing_at(FIL)); low=d<=FIL
+    P=np.where(low, f63*np.log(d/FINEST)/np.log(FIL/FINEST), P); lg=np.log(d)
+    V=(1-r.voids)*r.aggregate_fraction*P; b=(1-r.voids)*(1-r.aggregate_fraction)
+    Est=St.modulus/(2*(1-St.poisson**2)); grains=V[-1]-V[low][-1]
+    F=p0*16*np.pi/(grains*Z); a0=(0.75*F/Est)**(1/3) if p0>0 else 0.
+    vfa=b/(b+r.voids) if sat else 1.
+    K=np.full(E.shape,KB,complex); G=3*K*E/(9*K-E); Ks,Gs=[K],[G]
+    a1=0.0 if gap>0 else a0; xe=np.maximum(EDGE[1:]**2-a1**2,1e-12)/2+4*gap; xm=np.maximum(R_**2-a1**2,1e-12)/2+4*gap
+    for i in range(1,len(d)):
+        va=0.
+        if low[i]:
+            x0=V[i-1]/(1-rig)/(V[i-1]+b); x1=V[i]/(1-rig)/(V[i]+b)
+            U=np.log((1-x0)/(1-x1)); air_f=0.
+        else:
+            va=r.voids*(P[i]-P[i-1])/(1-f63) if air else 0.
+            done=r.voids*(P[i-1]-f63)/(1-f63) if air else 0.
+            tot=b+done+V[i]+va; x=(V[i]-V[i-1]+va)/tot; U=-np.log1p(-x); air_f=va/max(V[i]-V[i-1]+va,1e-30)
+            if U<=0: Ks.append(K); Gs.append(G); continue
+            D=np.sqrt(d[i]*d[i-1]); Rp=D/4*flat; MK=np.array(Ks); MG=np.array(Gs)
+            def at(h,M):
+                xx=np.clip(np.log(h),lg[0],lg[i-1]); j=np.clip(np.searchsorted(lg,xx)-1,0,i-2); t=((xx-lg[j])/(lg[j+1]-lg[j]))[:,None]
+                return np.exp((1-t)*np.log(M[j])+t*np.log(M[j+1])).T
+            gf=at(fits*xe*Rp,MG)/Est; kf=at(fits*xm*Rp,MK+4*MG/3)/Est
+            kn=spot(gf,kf,Est,0. if not gap else -4*gap)*Est*flat if gap else spot(gf,kf,Est,a0)*Est*flat; dry=2*Est*a0*flat; kn=dry+vfa*(kn if gap else kn-dry)
+            pref=(V[i]-V[i-1])/tot*Z*kn/2/np.pi; cut=(1-G/St.shear)**2; cutK=np.clip(1-K.real/St.bulk,0,1)**2
+            dKn,dGn=pref/12*cutK,pref/20*(1+1.5*kt)*cut
+        nst=max(1,int(np.ceil(U/0.02))); hstep=U/nst
+        for _ in range(nst):
+            def rate(q,G):
+                zG=G*(9+8*G*q)/(6*(1+2*G*q)); zK=4*G/3
+                return -(1-air_f)*(St.bulk*q-1)*(1+zK*q)/(St.bulk+zK)+air_f*(1/zK+q),(1-air_f)*(St.shear-G)*(G+zG)/(St.shear+zG)-air_f*G*(G+zG)/zG
+            q=1/K
+            a=rate(q,G); c=rate(q+hstep*a[0]/2,G+hstep*a[1]/2); q=q+hstep*c[0]; G=G+hstep*c[1]; K=1/q
+            if not low[i]: K=K+dKn/nst; G=G+dGn/nst
+        Ks.append(K); Gs.append(G)
+    if not air and r.voids>0:
+        n=60; h=-np.log(1-r.voids)/n; q=1/K
+        for _ in range(n):
+            zG=G*(9+8*G*q)/(6*(1+2*G*q)); zK=4*G/3; q=q+h*(1/zK+q); G=G-h*G*(G+zG)/zG
+        K=1/q
+    return young(K,G)
+if __name__=='__main__':
+    for name,St in (('60',S60),('95',S95)):
+        for kw in (dict(),dict(Z=4),dict(Z=12),dict(p0=1e3),dict(p0=1e3,Z=4),dict(p0=0.),dict(air=False),dict(fits=.5),dict(sat=False)):
+            print(name,kw,score6(lambda p:model2(p.recipe,p.binder(),St,**kw)))
+    for p in pairs()[:4]:
+        o=model2(p.recipe,p.binder(),S60)
+        for k in range(0,20,3): print(p.name,'G %8.3g kPa ph %.0f'%(abs(p.binder()[k])/3e3,np.degrees(np.angle(p.binder()[k]))),'meas %6.0f %4.1f'%(abs(p.measured[k])/1e6,np.degrees(np.angle(p.measured[k]))),'model %6.0f %4.1f'%(abs(o[k])/1e6,np.degrees(np.angle(o[k]))))
