@@ -208,3 +208,54 @@ if __name__=='__main__':
     for p in pairs()[:4]:
         o=model2(p.recipe,p.binder(),S60)
         for k in range(0,20,3): print(p.name,'G %8.3g kPa ph %.0f'%(abs(p.binder()[k])/3e3,np.degrees(np.angle(p.binder()[k]))),'meas %6.0f %4.1f'%(abs(p.measured[k])/1e6,np.degrees(np.angle(p.measured[k]))),'model %6.0f %4.1f'%(abs(o[k])/1e6,np.degrees(np.angle(o[k]))))
+
+def model3(r,E,St,Z=2.,rough=0.,p=10e3,rig=.35,nsize=24,sat=True,zdry=None,n=3,skel=True,rel=0.,parts=False,air_with=FIL):
+    g=r.grading; top=g.sieve[np.flatnonzero(g.passing>=1-1e-12)[0]]
+    d=np.unique(np.concatenate([np.geomspace(FINEST,FIL,8),np.geomspace(FIL,top,nsize)]))
+    P=g.passing_at(d); f63=float(g.passing_at(FIL)); low=d<=FIL
+    P=np.where(low, f63*np.log(d/FINEST)/np.log(FIL/FINEST), P); lg=np.log(d)
+    V=(1-r.voids)*r.aggregate_fraction*P; b=(1-r.voids)*(1-r.aggregate_fraction)
+    Est=St.modulus/(2*(1-St.poisson**2)); grains=V[-1]-V[low][-1]
+    vfa=b/(b+r.voids) if sat else 1.
+    K=np.full(E.shape,KB,complex); G=3*K*E/(9*K-E); Ks,Gs=[K],[G]
+    done=0.
+    pw=float(g.passing_at(air_with)) if air_with>FIL else f63
+    for i in range(1,len(d)):
+        va=0.
+        if low[i]:
+            x0=V[i-1]/(1-rig)/(V[i-1]+b); x1=V[i]/(1-rig)/(V[i]+b)
+            U=np.log((1-x0)/(1-x1)); air_f=0.
+        else:
+            va=r.voids*max(P[i]-max(P[i-1],pw),0)/(1-pw)
+            tot=b+done+V[i]+va; done+=va; x=(V[i]-V[i-1]+va)/tot; U=-np.log1p(-x); air_f=va/max(V[i]-V[i-1]+va,1e-30)
+            if U<=0: Ks.append(K); Gs.append(G); continue
+            D=np.sqrt(d[i]*d[i-1]); Rp=D/4; MK=np.array(Ks); MG=np.array(Gs); x0=rough/Rp+4*rel
+            xe=EDGE[1:]**2/2+x0; xm=R_**2/2+x0
+            def at(h,M):
+                xx=np.clip(np.log(h),lg[0],lg[i-1]); j=np.clip(np.searchsorted(lg,xx)-1,0,i-2); t=((xx-lg[j])/(lg[j+1]-lg[j]))[:,None]
+                return np.exp((1-t)*np.log(M[j])+t*np.log(M[j+1])).T
+            kn=vfa*spot(at(xe*Rp,MG)/Est,at(xm*Rp,MK+4*MG/3)/Est,Est,-x0)*Est
+            pref=(V[i]-V[i-1])/tot*Z*kn/2/np.pi
+            dKn,dGn=pref/12*(1-K/St.bulk)**2,pref/20*(1-G/St.shear)**2
+        nst=max(1,int(np.ceil(U/0.03))); hstep=U/nst
+        for _ in range(nst):
+            def rate(q,G):
+                zG=G*(9+8*G*q)/(6*(1+2*G*q)); zK=4*G/3
+                return -(1-air_f)*(St.bulk*q-1)*(1+zK*q)/(St.bulk+zK)+air_f*(1/zK+q),(1-air_f)*(St.shear-G)*(G+zG)/(St.shear+zG)-air_f*G*(G+zG)/zG
+            q=1/K
+            a=rate(q,G); c=rate(q+hstep*a[0]/2,G+hstep*a[1]/2); q=q+hstep*c[0]; G=G+hstep*c[1]; K=1/q
+            if not low[i]: K=K+dKn/nst; G=G+dGn/nst
+        Ks.append(K); Gs.append(G)
+    zd=zdry or 4.
+    F=p*16*np.pi/(grains*zd); a0=(0.75*F/Est)**(1/3); kn=2*Est*a0  # per R'
+    mind=2*(1-St.poisson)/(2-St.poisson)
+    pref=grains*zd*kn/2/np.pi; Kd,Gd=pref/12,pref/20*(1+1.5*mind)
+    if skel: K=K+Kd*(1-K/St.bulk)**2; G=G+Gd*(1-G/St.shear)**2
+    return young(K,G)
+if __name__=='__main__':
+    import time; t=time.process_time()
+    for kw in (dict(),dict(p=1e3),dict(rough=1e-6),dict(rough=3e-7),dict(rough=3e-7,Z=3),dict(rough=1e-6,Z=3),dict(rough=3e-6,Z=3),dict(rough=1e-6,Z=4),dict(rough=3e-6,Z=4),dict(rel=1e-4),dict(rel=3e-4),dict(rough=3e-7,p=1e3)):
+        print(kw,score6(lambda p:model3(p.recipe,p.binder(),S60,**kw)))
+        o2=model3(pairs()[0].recipe,np.array([3.,30.,300.,3e3,3e4,3e5,3e6,3e7])*np.exp(1.2j),S60,**kw)
+        print('    ',np.round(abs(o2)/1e6),np.round(np.degrees(np.angle(o2)),1))
+    print(time.process_time()-t)
