@@ -124,6 +124,8 @@ _MODELS = {
     "witczak": "Witczak 1-40D",
     "differential": "differential scheme",
     "witczak_its_own_binder": "Witczak, its own binder",
+    "forecast_shifted": "forecast, time shifted",
+    "hirsch_shifted": "Hirsch, time shifted",
 }
 BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
     "verification": [Layout({name: name for name in ("theme", "passed")})],
@@ -258,12 +260,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
                 "factor_all": "factor of modulus",
                 "phase_all_deg": "phase, °",
             },
-            but={
-                # What the forecast loses without each part is in overall.csv.
-                "forecast": [
-                    f"without {part}" for part in ("squeezed films", "grains that touch", "dry skeleton")
-                ]
-            },
             figures=3,
         ),
     ],
@@ -323,17 +319,20 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             "Factor of modulus at each temperature:",
         ),
     ],
-    "wrong_recipes": [
+    "forecast_tried": [
         Layout(
             {
-                "wrong": "input",
-                "size": "off by",
-                "named": "named",
-                "among_several": "in a group",
-                "named_wrongly": "wrong",
+                "contacts": "contacts",
+                "gap_nm": "gap, nm",
+                "factor_all": "factor",
+                "phase_all_deg": "phase, °",
+                "factor_even": "half of the mixes",
+                "phase_even_deg": "phase, ° ",
+                "factor_odd": "the other half",
+                "phase_odd_deg": "phase, °  ",
             },
-            # What the differential scheme says is a sentence of docs/forecast.md.
-            where={"limits": (3,), "densities": ("yes",), "truth": ("hirsch",)},
+            where={"gap_nm": (1,)},
+            figures=3,
         )
     ],
     "growth": [
