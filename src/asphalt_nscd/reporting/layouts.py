@@ -124,9 +124,8 @@ _MODELS = {
     "witczak": "Witczak 1-40D",
     "differential": "differential scheme",
     "witczak_its_own_binder": "Witczak, its own binder",
-    "forecast_shifted": "forecast, time shifted",
-    "hirsch_shifted": "Hirsch, time shifted",
 }
+_SHIFTED = {"forecast_shifted": "forecast, time shifted", "hirsch_shifted": "Hirsch, time shifted"}
 BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
     "verification": [Layout({name: name for name in ("theme", "passed")})],
     "faults": [Layout({name: name for name in ("kind", "faults", "passed")})],
@@ -308,7 +307,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             # Each temperature is below, and its phases are in blind_overall.csv.
             where={"temperature_C": ("4.4 to 54.4",)},
             figures=3,
-            shorter=_MODELS,
+            shorter=_MODELS | _SHIFTED,
         ),
         Crossed(
             "temperature_C",
