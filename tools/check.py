@@ -44,7 +44,6 @@ PUBLISHED = (
     "fall",
     "fatigue",
     "faults",
-    "film",
     "forecast",
     "fuzz",
     "mapping",

@@ -1,90 +1,57 @@
-"""The forecast as it stands, of measured mixes on which none of its rules was chosen, beside what others forecast.
+"""The forecast of measured mixes beside what others forecast, and how its two set numbers came about.
 
 Of the binder the viscosity of its grade is known, of the grading four sieves; the effective binder counts as binder.
-Packings are those of another recipe, whatever the grading.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import partial
+from itertools import product
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 import pandas as pd
 import yaml
-from scipy.optimize import brentq
+from scipy.optimize import minimize_scalar
 
 from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.commit import commit
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.forecasting.forecast import (
-    MODEL,
-    Contents,
-    Level,
-    LevelPacking,
-    Networks,
-    forecast,
-    kept_in,
-)
-from asphalt_nscd.forecasting.levels import levels_of
-from asphalt_nscd.forecasting.recipe import Recipe, read_recipe, recipe_of
-from asphalt_nscd.forecasting.rivals import hirsch, witczak
-from asphalt_nscd.rheology.spectrum import Spectrum
-from studies.forecast.differential import FINE, RIGDEN, differential
+from asphalt_nscd.forecasting.binders import BinderLaw, crossover_of, shear_modulus
+from asphalt_nscd.forecasting.forecast import forecast
+from asphalt_nscd.forecasting.recipe import Recipe, recipe_of
+from asphalt_nscd.forecasting.rivals import RIVALS, witczak
+from asphalt_nscd.forecasting.scheme import Settings, modulus_of_mix
 
-GLASSY, RHEOLOGICAL_INDEX = 1e9, 1.8  # Pa; Christensen & Anderson (1992), middle of paving grades
 DENSITY = {"aggregate": 2670.0, "binder": 1030.0}  # kg/m3, usual: the source gives volumes
 SIEVES = (0.063, 0.15, 0.3, 0.6, 1.18, 2.36)  # mm, between and below those of the source
 COLDEST = 0.0  # degC, of errors over all temperatures: a grade says little of what is colder
-RIVALS: dict[str, Callable[[Recipe], np.ndarray]] = {
-    "hirsch": hirsch,
-    "witczak": witczak,
-    "differential": partial(differential, steps=FINE, rigden=RIGDEN),
-}
 CALIBRATED = "witczak_its_own_binder"  # with |G*| and phase of the source, which were fitted to these mixes
+SHIFTED = {"forecast": "forecast_shifted", "hirsch": "hirsch_shifted"}  # with one shift of time for each mix
+MODELS = ("forecast", *RIVALS, CALIBRATED, *SHIFTED.values())
+TRIED = {"contacts": (0.5, 0.75, 1.0, 1.25, 1.5), "gap": (1e-9, 10e-9, 100e-9)}
 
 
 @dataclass(frozen=True)
 class AtPoints:
-    """Stands for a law: E* (n,) [Pa] of the binder at the points of a recipe."""
+    """Stands for a law: E* (n,) [Pa] of the binder at the points of a recipe, and at raised frequencies."""
+
+    crossover: np.ndarray
+
+    def complex_modulus(self, omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+        """Three times the shear modulus: a binder is nearly incompressible."""
+        return 3.0 * shear_modulus(omega, self.crossover)
+
+
+@dataclass(frozen=True)
+class Known:
+    """Likewise, whatever the frequency."""
 
     modulus: np.ndarray
 
     def complex_modulus(self, omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
         return self.modulus
-
-
-class ShippedPackings(Networks):
-    """The packings of one recipe for the levels of any other."""
-
-    def __init__(self, recipe: Recipe, folder: str | Path) -> None:
-        super().__init__(kept_in(folder))
-        self._own = {level.name: level for level in levels_of(recipe)}
-
-    def _contents(self, level: Level, seed: int) -> tuple[LevelPacking, Contents]:
-        return super()._contents(self._own[level.name], seed)
-
-
-def shear_modulus(omega: np.ndarray, crossover: np.ndarray | float) -> np.ndarray:
-    """G* (n,) [Pa] of a binder (Christensen & Anderson 1992) that crosses over at an angular frequency [rad/s]."""
-    power = np.log10(2.0) / RHEOLOGICAL_INDEX
-    size = GLASSY * (1.0 + (crossover / omega) ** power) ** (-1.0 / power)
-    return size * np.exp(0.5j * np.pi / (1.0 + (omega / crossover) ** power))
-
-
-def crossover_of(viscosity: float) -> float:
-    """Angular frequency [rad/s] of the binder whose viscosity [Pa s] is |G*| / 10 (1 / sin delta)^4.8628 at 10 rad/s.
-
-    So the MEPDG (2004) makes the viscosity of a grade from its tests by a rheometer.
-    """
-
-    def off(log: float) -> float:
-        at = shear_modulus(np.array(10.0), 10.0**log)
-        return float(np.log(np.abs(at) / 10.0 * np.sin(np.angle(at)) ** -4.8628 / viscosity))
-
-    return float(10.0 ** brentq(off, -20.0, 20.0))
 
 
 def grading_of(row: Mapping[str, float]) -> dict[float, float]:
@@ -110,42 +77,53 @@ def recipe_of_row(row: Mapping[str, float], points: pd.DataFrame, usual: Mapping
         "density_kg_m3": DENSITY,
     }
     recipe = recipe_of({**usual, **own}, f"mix {row['mix']:.0f}")
-    crossover = points["binder_viscosity_Pa_s"].map(crossover_of).to_numpy()
-    omega = 2.0 * np.pi * points["frequency_Hz"].to_numpy()
-    # Three times the shear modulus: a binder is nearly incompressible.
-    law = cast(Spectrum, AtPoints(3.0 * shear_modulus(omega, crossover)))
+    law = cast(BinderLaw, AtPoints(points["binder_viscosity_Pa_s"].map(crossover_of).to_numpy()))
     temperature, frequency = (points[name].to_numpy() for name in ("temperature_C", "frequency_Hz"))
     return replace(recipe, binder=law, temperature=temperature, frequency=frequency)
 
 
-def forecast_mix(recipe: Recipe, points: pd.DataFrame, networks: Networks) -> tuple[pd.DataFrame, float]:
-    """Measured and forecast |E*| [MPa] and phase [degrees] of each point, and the fraction of the stones."""
-    made = forecast(recipe, networks, seeds=(1,))
-    half = made.band(MODEL)
+def forecast_mix(recipe: Recipe, points: pd.DataFrame) -> pd.DataFrame:
+    """Measured and forecast |E*| [MPa] and phase [degrees] of each point."""
+    made = forecast(recipe)
+    half = made.band()
     table = points[["mix", "temperature_C", "frequency_Hz"]].copy()
     table["measured_E_MPa"], table["measured_phase_deg"] = points["E_MPa"], points["phase_deg"]
-    table["forecast_E_MPa"], table["forecast_phase_deg"] = _shown(made.modulus)
-    table["half_band_ln_E"], table["half_band_phase_deg"] = half.real, np.degrees(half.imag)
-    for name, rival in RIVALS.items():
-        table[f"{name}_E_MPa"], table[f"{name}_phase_deg"] = _shown(rival(recipe))
     fitted = 3e3 * points["binder_G_kPa"] * np.exp(1j * np.radians(points["binder_phase_deg"]))
-    known = replace(recipe, binder=cast(Spectrum, AtPoints(fitted.to_numpy())))
-    table[f"{CALIBRATED}_E_MPa"], table[f"{CALIBRATED}_phase_deg"] = _shown(witczak(known))
-    return table, made.levels[-1].level.fraction
+    known = replace(recipe, binder=cast(BinderLaw, Known(fitted.to_numpy())))
+    found = {"forecast": made.modulus, **{name: rival(recipe) for name, rival in RIVALS.items()}}
+    found[CALIBRATED] = witczak(known)
+    found[SHIFTED["forecast"]] = shifted(
+        recipe, points, lambda mix: modulus_of_mix(mix, mix.binder_modulus())
+    )
+    found[SHIFTED["hirsch"]] = shifted(recipe, points, RIVALS["hirsch"])
+    for name, modulus in found.items():
+        phase = np.degrees(np.angle(modulus))
+        table[f"{name}_E_MPa"] = 1e-6 * np.abs(modulus)
+        # a regression of |E*| alone has no phase
+        table[f"{name}_phase_deg"] = phase if phase.any() else np.nan
+    table["half_band_ln_E"], table["half_band_phase_deg"] = half.real, np.degrees(half.imag)
+    return table
 
 
-def _shown(modulus: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """|E*| [MPa] and phase [degrees]; a regression of |E*| alone has no phase."""
-    phase = np.degrees(np.angle(modulus))
-    return 1e-6 * np.abs(modulus), phase if phase.any() else np.full(phase.shape, np.nan)
+def shifted(recipe: Recipe, points: pd.DataFrame, model: Any) -> np.ndarray:
+    """E* (n,) [Pa] with the shift of the binder's time, -2 to 2 decades, that meets |E*| above COLDEST best."""
+    warm = (points["temperature_C"] > COLDEST).to_numpy()
+
+    def made(decades: float) -> np.ndarray:
+        crossover = cast(AtPoints, recipe.binder).crossover / 10.0**decades
+        return model(replace(recipe, binder=cast(BinderLaw, AtPoints(crossover))))
+
+    def misfit(decades: float) -> float:
+        off = np.log(1e-6 * np.abs(made(decades)) / points["E_MPa"].to_numpy())
+        return float((off[warm] ** 2).mean())
+
+    return made(
+        float(minimize_scalar(misfit, bounds=(-2.0, 2.0), method="bounded", options={"xatol": 0.02}).x)
+    )
 
 
 def forecast_all(
-    recipes: pd.DataFrame,
-    moduli: pd.DataFrame,
-    versions: Mapping[int, str],
-    usual: Mapping[str, Any],
-    networks: Networks,
+    recipes: pd.DataFrame, moduli: pd.DataFrame, versions: Mapping[int, str], usual: Mapping[str, Any]
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Points of all mixes that the forecast takes, and a row for each mix: why it was refused, or how far it is off.
 
@@ -160,7 +138,7 @@ def forecast_all(
             "refused": "",
         }
         try:
-            table, stones = forecast_mix(recipe_of_row(recipe, points, usual), points, networks)
+            table = forecast_mix(recipe_of_row(recipe, points, usual), points)
         except InputError as error:
             rows.append(row | {"refused": str(error)})
             continue
@@ -168,14 +146,14 @@ def forecast_all(
         found = errors(table[table["temperature_C"] > COLDEST]).set_index("model")
         own = {f"factor_{model}": factor for model, factor in found["factor"].items()}
         phases = {f"phase_{model}_deg": off for model, off in found["phase_deg"].dropna().items()}
-        rows.append(row | {"stones_percent": 100.0 * stones} | own | phases)
+        rows.append(row | own | phases)
     return pd.concat(tables), pd.DataFrame(rows)
 
 
 def errors(table: pd.DataFrame) -> pd.DataFrame:
     """A row for each model: factor (exp of the root mean square of ln(|E*| / measured)), bias, phase likewise."""
     rows = []
-    for model in ("forecast", *RIVALS, CALIBRATED):
+    for model in MODELS:
         off = np.log(table[f"{model}_E_MPa"] / table["measured_E_MPa"])
         turned = table[f"{model}_phase_deg"] - table["measured_phase_deg"]
         within = {}
@@ -199,7 +177,7 @@ def errors(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def overall(points: pd.DataFrame) -> pd.DataFrame:
-    """Errors of each model above COLDEST, and at each temperature; mixes where it is nearer than Hirsch."""
+    """Errors of each model above COLDEST, and at each temperature; mixes nearer than Hirsch."""
     warm = points[points["temperature_C"] > COLDEST]
     parts = {f"{warm['temperature_C'].min():g} to {warm['temperature_C'].max():g}": warm}
     parts |= {f"{temperature:g}": part for temperature, part in points.groupby("temperature_C")}
@@ -211,20 +189,39 @@ def overall(points: pd.DataFrame) -> pd.DataFrame:
         )
         found["mixes"] = by_mix.shape[1]
         found["mixes_nearer_than_hirsch"] = (by_mix < by_mix.loc["hirsch"]).sum(axis=1).to_numpy()
-        found["mixes_within_factor_of_six"] = (by_mix <= np.exp(MODEL.real)).sum(axis=1).to_numpy()
         rows.append(found.assign(temperature_C=name))
     return pd.concat(rows).set_index("temperature_C").reset_index()
+
+
+def try_numbers(recipes: pd.DataFrame, moduli: pd.DataFrame, usual: Mapping[str, Any]) -> pd.DataFrame:
+    """Factor and phase above COLDEST for each pair of TRIED: of all mixes, and of each half of them."""
+    mixes = []
+    for recipe in recipes.to_dict("records"):
+        points = moduli[(moduli["mix"] == recipe["mix"]) & (moduli["temperature_C"] > COLDEST)]
+        measured = 1e6 * points["E_MPa"] * np.exp(1j * np.radians(points["phase_deg"]))
+        mixes.append((recipe_of_row(recipe, points, usual), measured.to_numpy()))
+    rows = []
+    for contacts, gap in product(TRIED["contacts"], TRIED["gap"]):
+        settings = Settings(contacts=contacts, gap=gap)
+        off = [np.log(modulus_of_mix(recipe, recipe.binder_modulus(), settings) / e) for recipe, e in mixes]
+        row = {"contacts": contacts, "gap_nm": 1e9 * gap}
+        for name, part in {"all": off, "even": off[::2], "odd": off[1::2]}.items():
+            log = np.concatenate(part)
+            row[f"factor_{name}"] = float(np.exp(np.sqrt((log.real**2).mean())))
+            row[f"phase_{name}_deg"] = float(np.degrees(np.sqrt((log.imag**2).mean())))
+        rows.append(row)
+    return pd.DataFrame(rows)
 
 
 def run(job: Any) -> None:
     """From the files of the rule to its tables."""
     given, made = job.input, job.output
-    networks = ShippedPackings(read_recipe(given.recipe), given.packings)
     usual = yaml.safe_load(Path(given.recipe).read_text(encoding="utf-8"))
     recipes, moduli, seen = (pd.read_csv(given[name]) for name in ("recipes", "moduli", "seen"))
     versions = dict(zip(seen["mix"], seen["version"], strict=True))
-    points, mixes = forecast_all(recipes, moduli, versions, usual, networks)
-    for name, table in {"points": points, "mixes": mixes, "overall": overall(points)}.items():
+    points, mixes = forecast_all(recipes, moduli, versions, usual)
+    tables = {"points": points, "mixes": mixes, "overall": overall(points)}
+    for name, table in (tables | {"tried": try_numbers(recipes, moduli, usual)}).items():
         write_table(made[name], table)
 
 

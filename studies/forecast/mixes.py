@@ -1,11 +1,10 @@
-"""The forecast held against mixes whose binder was measured too: what each part of the physics is worth, and who else
-does as well.
+"""The forecast held against mixes whose binder was measured too, and who else does as well.
 
 Of each mix the law of the binder makes the forecast, and the law of the mix is the truth; both are 2S2P1D fits to
 measurements, as published. All mixes of the table share one recipe.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -18,34 +17,19 @@ from scipy.optimize import least_squares, minimize_scalar, nnls
 from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.forecasting.film import Solid
-from asphalt_nscd.forecasting.forecast import LevelResult, Networks, Settings, forecast, kept_in, modulus_of
-from asphalt_nscd.forecasting.recipe import UNSTATED, Recipe, read_recipe
+from asphalt_nscd.forecasting.binders import LAW_KEYS, UNSTATED, BinderLaw
+from asphalt_nscd.forecasting.recipe import Recipe, read_recipe
 from asphalt_nscd.forecasting.rivals import RIVALS
+from asphalt_nscd.forecasting.scheme import USUAL, Settings, modulus_of_mix
+from asphalt_nscd.forecasting.solid import Solid
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius
-from asphalt_nscd.rheology.spectrum import Spectrum
-from studies.forecast.differential import FINE, RIGDEN, differential
-from studies.forecast.packings import OTHER_CUTS
 
 PRINTED = Solid(95e9, 0.17)
 """What the documentation of MeanFieldHom.jl gives the aggregate (docs/src/applications/bituminous.md)."""
-DIFFERENTIAL: dict[str, Callable[[Recipe], np.ndarray]] = {
-    "differential": partial(differential, steps=FINE),
-    "differential, filler by Rigden": partial(differential, steps=FINE, rigden=RIGDEN),
-}
-CALIBRATED_ON, SHIFTED_ON, SHIFTED = "H0", "W0", "W"  # the shift is that of the warm mixes' binder
-PRESSURES = (0.1e3, 0.3e3, 1e3, 3e3, 10e3)  # Pa
+FORECAST = "forecast"
+HOT, WARM = "H0", "W0"  # the first of the hot mixes and of the warm ones
 ANY = Limits(0.0, 1e12, "give a number that is not negative")
-COLUMNS = {
-    "static_modulus": ("E00_MPa", 1e6),
-    "glassy_modulus": ("E0_MPa", 1e6),
-    "delta": ("delta", 1.0),
-    "tau": ("tau_s", 1.0),
-    "k": ("k", 1.0),
-    "h": ("h", 1.0),
-    "beta": ("beta", 1.0),
-}
 ANY_MAP = np.geomspace(1e-4, 1e4, 33) * 1e6  # Pa, poles of a map that knows the measurements
 
 
@@ -67,6 +51,11 @@ class Pair:
         """E* [Pa] of the mix at the points of the recipe."""
         return self.mix.complex_modulus(self.omega, self.recipe.temperature)
 
+    @property
+    def measured_phase(self) -> np.ndarray:
+        """Of the mix (n,) [degrees]."""
+        return np.degrees(np.angle(self.measured))
+
     def binder(self, decades: float = 0.0) -> np.ndarray:
         """E* of the binder (n,) [Pa], frequencies raised by `decades`: above 0 it is stiffer than the recovered one."""
         return self.recipe.binder.complex_modulus(self.omega * 10.0**decades, self.recipe.temperature)
@@ -75,9 +64,9 @@ class Pair:
 def read_pairs(table: str | Path, recipe: Recipe) -> list[Pair]:
     """Mixes whose binder was measured too, one for each state of the table; the recipe gives all else."""
     rows = read_csv(table)
-    rows.require(["ageing_state", "level", *(column for column, _ in COLUMNS.values())])
+    rows.require(["ageing_state", "level", *LAW_KEYS])
     laws: dict[tuple[str, str], TwoS2P1D] = {}
-    numbers = {name: scale * rows.numbers(column, ANY) for name, (column, scale) in COLUMNS.items()}
+    numbers = {name: scale * rows.numbers(key, ANY) for key, (name, scale) in LAW_KEYS.items()}
     for row, key in enumerate(zip(rows.columns["ageing_state"], rows.columns["level"], strict=True)):
         values = {name: float(column[row]) for name, column in numbers.items()}
         refusal = TwoS2P1D.refusal(values)
@@ -92,169 +81,70 @@ def read_pairs(table: str | Path, recipe: Recipe) -> list[Pair]:
     ]
 
 
-def rungs(settings: Settings) -> Iterator[tuple[str, Settings]]:
-    """Name and settings of each rung: what the forecast gains with each part of its physics, and loses without it."""
-    bare = replace(settings, squeezed=False, touching=False, voids=False, skeleton_pressure=0.0)
-    yield "levels", bare
-    yield "+ squeezed films", replace(bare, squeezed=True)
-    yield "+ grains that touch", replace(bare, squeezed=True, touching=True)
-    yield "+ dry skeleton", replace(settings, voids=False)
-    yield "+ air voids: the forecast", settings
-    yield "without squeezed films", replace(settings, squeezed=False)
-    yield "without grains that touch", replace(settings, touching=False)
-    yield "without dry skeleton", replace(settings, skeleton_pressure=0.0)
-    for name, cuts in OTHER_CUTS.items():
-        yield f"levels: {name}", replace(settings, cuts=cuts)
-
-
-def compare(pairs: list[Pair], networks: Networks) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Errors of each rung and rival against each measured mix, and the points of the last rungs.
+def compare(pairs: list[Pair]) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Errors of each forecast and rival against each measured mix, and their points.
 
     factor_rms is exp of the root mean square of ln(|E*| / measured), phase_rms_deg that of the phase.
     """
-    recipe, settings = pairs[0].recipe, Settings()
-    made: dict[str, tuple[str, int, Callable[[Pair], np.ndarray]]] = {}
-    for name, rival in {**RIVALS, **DIFFERENTIAL}.items():
-        made[name] = "rival", 0, partial(_rival, rival)
-    for name, chosen in rungs(settings):
-        levels = networks.chain(recipe, chosen, 1)
-        made[name] = "forecast", 0, partial(_forecast, levels, recipe.aggregate)
-    levels = networks.chain(replace(recipe, aggregate=PRINTED), settings, 1)
-    made[f"aggregate {PRINTED.modulus / 1e9:.0f} GPa, as the source prints"] = (
-        "forecast",
-        0,
-        partial(_forecast, levels, PRINTED),
-    )
-    by_name = {pair.name: pair for pair in pairs}
-    calibrated_on, shifted_on = by_name[CALIBRATED_ON], by_name[SHIFTED_ON]
-    fitted, levels = calibrated(calibrated_on, settings, networks)
-    made[
-        f"aggregate {fitted.recipe.aggregate.modulus / 1e9:.0f} GPa and skeleton "
-        f"{fitted.settings.skeleton_pressure / 1e3:.2g} kPa, set on {CALIBRATED_ON}"
-    ] = "calibrated", 2, partial(_forecast, levels, fitted.recipe.aggregate)
-    fitted, levels = calibrated(calibrated_on, settings, networks, shifted=True)
-    hot, stone = fitted.decades, recipe.aggregate
-    made[
-        f"binder {_stiffer(hot)} and skeleton {fitted.settings.skeleton_pressure / 1e3:.2g} kPa, set on {CALIBRATED_ON}"
-    ] = "calibrated", 2, partial(_shifted, levels, stone, hot)
-    warm = binder_shift(shifted_on, partial(modulus_of, levels, stone))
-    made[f"and {SHIFTED} binders {_stiffer(warm)} instead, set on {SHIFTED_ON}"] = (
-        "calibrated",
-        3,
-        lambda pair: _shifted(levels, stone, warm if pair.name.startswith(SHIFTED) else hot, pair),
-    )
-    own = measured_map(calibrated_on)
-    made[f"no particle: measured map of binder to mix of {CALIBRATED_ON}"] = (
-        "measured",
-        0,
-        lambda pair: own(pair.binder()),
-    )
-    # As much later than the hot ones as their mix is not.
-    later = decades_slower(shifted_on.mix, calibrated_on.mix, shifted_on) - decades_slower(
-        shifted_on.recipe.binder, calibrated_on.recipe.binder, shifted_on
-    )
-    made[f"that map, and {SHIFTED} binders {_stiffer(later)}"] = (
-        "measured",
-        1,
-        lambda pair: own(pair.binder(later if pair.name.startswith(SHIFTED) else 0.0)),
-    )
-    best = best_map(pairs)
-    made["best map of binder to mix, fitted to all"] = (
-        "bound",
-        len(best),
-        lambda pair: _any_map(pair.binder()) @ best,
-    )
     errors, points = [], []
-    for name, (kind, parameters, modulus) in made.items():
+    for name, (parameters, modulus) in _forecasts(pairs).items():
         for pair in pairs:
             found = modulus(pair)
             off = np.log(found / pair.measured)
-            has_phase = bool(np.iscomplexobj(found) and np.any(found.imag))
+            # Witczak's regression is of |E*| alone.
+            phase = np.degrees(np.angle(found)) if np.any(found.imag) else np.full(found.size, np.nan)
             errors.append(
                 {
                     "forecast": name,
-                    "kind": kind,
                     "parameters": parameters,
                     "mix": pair.name,
                     "factor_rms": float(np.exp(np.sqrt((off.real**2).mean()))),
-                    "phase_rms_deg": float(np.degrees(np.sqrt((off.imag**2).mean())))
-                    if has_phase
-                    else np.nan,
+                    "phase_rms_deg": float(np.sqrt(((phase - pair.measured_phase) ** 2).mean())),
                 }
             )
-            points += [
-                {
-                    "forecast": name,
-                    "mix": pair.name,
-                    "omega_rad_s": w,
-                    "E_MPa": 1e-6 * abs(e),
-                    "phase_deg": np.degrees(np.angle(e)) if has_phase else np.nan,
-                    "measured_E_MPa": 1e-6 * abs(m),
-                    "measured_phase_deg": np.degrees(np.angle(m)),
-                }
-                for w, e, m in zip(pair.omega, found, pair.measured, strict=True)
-            ]
-    return pd.DataFrame(errors), pd.DataFrame(points)
+            table = {
+                "forecast": name,
+                "mix": pair.name,
+                "omega_rad_s": pair.omega,
+                "E_MPa": 1e-6 * np.abs(found),
+                "phase_deg": phase,
+                "measured_E_MPa": 1e-6 * np.abs(pair.measured),
+                "measured_phase_deg": pair.measured_phase,
+            }
+            points.append(pd.DataFrame(table))
+    return pd.DataFrame(errors), pd.concat(points)
+
+
+def _forecasts(pairs: list[Pair]) -> dict[str, tuple[int, Callable[[Pair], np.ndarray]]]:
+    """By name: how many numbers are fitted to these mixes, and E* [Pa] of a mix."""
+
+    def made(pair: Pair, settings: Settings = USUAL, stone: Solid | None = None) -> np.ndarray:
+        recipe = replace(pair.recipe, aggregate=stone or pair.recipe.aggregate)
+        return modulus_of_mix(recipe, pair.binder(), settings)
+
+    own, best = measured_map(pairs[0]), best_map(pairs)
+    first = {pair.name: pair for pair in pairs}
+    # As much later than the hot ones as their mix is not.
+    hot, warm = first[HOT], first[WARM]
+    later = decades_slower(warm.mix, hot.mix, warm) - decades_slower(
+        warm.recipe.binder, hot.recipe.binder, warm
+    )
+    return {
+        **{name: (0, partial(_rival, rival)) for name, rival in RIVALS.items()},
+        "forecast without skeleton": (0, partial(made, settings=Settings(pressure=0.0))),
+        FORECAST: (0, made),
+        f"aggregate {PRINTED.modulus / 1e9:.0f} GPa, as the source prints": (0, partial(made, stone=PRINTED)),
+        f"no recipe: measured map of binder to mix of {HOT}": (0, lambda pair: own(pair.binder())),
+        f"that map, and {WARM[0]} binders {abs(later):.2f} decades {'stiffer' if later > 0.0 else 'softer'}": (
+            1,
+            lambda pair: own(pair.binder(later if pair.name.startswith(WARM[0]) else 0.0)),
+        ),
+        "best map of binder to mix, fitted to all": (len(best), lambda pair: _any_map(pair.binder()) @ best),
+    }
 
 
 def _rival(rival: Callable[[Recipe], np.ndarray], pair: Pair) -> np.ndarray:
     return rival(pair.recipe)
-
-
-def _forecast(levels: tuple[LevelResult, ...], stone: Solid, pair: Pair) -> np.ndarray:
-    return _shifted(levels, stone, 0.0, pair)
-
-
-def _shifted(levels: tuple[LevelResult, ...], stone: Solid, decades: float, pair: Pair) -> np.ndarray:
-    return modulus_of(levels, stone, pair.binder(decades))
-
-
-def _stiffer(decades: float) -> str:
-    """Than recovered: as at frequencies so many decades higher."""
-    return f"{abs(decades):.2f} decades {'stiffer' if decades > 0.0 else 'softer'}"
-
-
-@dataclass(frozen=True)
-class Calibrated:
-    """Two inputs set on one mix: pressure in dry contacts; modulus of the aggregate, or the shift of the binder."""
-
-    recipe: Recipe
-    settings: Settings
-    decades: float = 0.0
-
-
-def calibrated(
-    pair: Pair, settings: Settings, networks: Networks, shifted: bool = False
-) -> tuple[Calibrated, tuple[LevelResult, ...]]:
-    """Two inputs set on one mix: those that the source leaves open, or, `shifted`, the binder in the mix for the first.
-
-    The pressure is the best of PRESSURES; with each the modulus is fitted to the maps of the usual one, since they know
-    ratios of moduli alone, but for the bulk modulus of the binder. The best is solved anew. `shifted` sets the binder's
-    frequencies in place of the modulus of the aggregate, by at most one decade up or down.
-    """
-    usual = pair.recipe.aggregate.modulus
-
-    def fitted(levels: tuple[LevelResult, ...]) -> tuple[float, float]:
-        def off(x: np.ndarray) -> np.ndarray:
-            stone, decades = pair.recipe.aggregate, float(x[0])
-            if not shifted:
-                stone, decades = replace(stone, modulus=usual * float(np.exp(x[0]))), 0.0
-            found = np.log(_shifted(levels, stone, decades, pair) / pair.measured)
-            return np.concatenate([found.real, found.imag])
-
-        best = least_squares(off, np.zeros(1), bounds=(-1.0, 1.0))
-        return float(best.cost), float(best.x[0])
-
-    tried = []
-    for pressure in PRESSURES:
-        chosen = replace(settings, skeleton_pressure=pressure)
-        tried.append((*fitted(networks.chain(pair.recipe, chosen, 1)), chosen))
-    _, found, chosen = min(tried, key=lambda one: one[0])
-    if shifted:
-        return Calibrated(pair.recipe, chosen, found), networks.chain(pair.recipe, chosen, 1)
-    stone = replace(pair.recipe.aggregate, modulus=usual * float(np.exp(found)))
-    recipe = replace(pair.recipe, aggregate=stone)
-    return Calibrated(recipe, chosen), networks.chain(recipe, chosen, 1)
 
 
 def measured_map(pair: Pair) -> Callable[[np.ndarray], np.ndarray]:
@@ -266,7 +156,7 @@ def measured_map(pair: Pair) -> Callable[[np.ndarray], np.ndarray]:
     return lambda modulus: np.exp(np.interp(np.log(np.abs(modulus)), binder, mix))
 
 
-def decades_slower(law: Spectrum, other: Spectrum, pair: Pair) -> float:
+def decades_slower(law: BinderLaw, other: BinderLaw, pair: Pair) -> float:
     """Decades, -4 to 4, of frequency by which a law is slower than another at the points of a pair."""
     own = law.complex_modulus(pair.omega, pair.recipe.temperature)
 
@@ -275,19 +165,6 @@ def decades_slower(law: Spectrum, other: Spectrum, pair: Pair) -> float:
         return float((np.abs(np.log(own / moved)) ** 2).sum())
 
     return float(minimize_scalar(misfit, bounds=(-4.0, 4.0), method="bounded").x)
-
-
-def binder_shift(pair: Pair, made: Callable[[np.ndarray], np.ndarray]) -> float:
-    """Decades, -3 to 3, by which to raise the binder's frequencies so that a mix is met best; least squares of ln E*.
-
-    `made` gives E* of the mix (n,) [Pa] for that of the binder (n,) [Pa].
-    """
-
-    def misfit(decades: float) -> float:
-        off = np.log(made(pair.binder(decades)) / pair.measured)
-        return float((np.abs(off) ** 2).sum())
-
-    return float(minimize_scalar(misfit, bounds=(-3.0, 3.0), method="bounded").x)
 
 
 def best_map(pairs: list[Pair]) -> np.ndarray:
@@ -320,27 +197,6 @@ def _any_map(binder: np.ndarray) -> np.ndarray:
     return np.hstack([np.full_like(x, 1e6), x, x / (1.0 + x / ANY_MAP)])
 
 
-def bands(pairs: list[Pair], networks: Networks) -> pd.DataFrame:
-    """What the band of a forecast holds of each mix, its share for the model's own error taken from the others alone.
-
-    Per mix: deviation_E of ln|E*| and deviation_phase_deg, root mean squares of the others; shares of its points that
-    lie in the band of stated doubts, and in that with these deviations (`Forecast.band`).
-    """
-    made = {pair.name: forecast(pair.recipe, networks, seeds=(1,)) for pair in pairs}
-    off = {pair.name: np.log(made[pair.name].modulus / pair.measured) for pair in pairs}
-    rows = []
-    for pair in pairs:
-        others = np.array([off[other.name] for other in pairs if other is not pair])
-        own = complex(np.sqrt((others.real**2).mean()), np.sqrt((others.imag**2).mean()))
-        row = {"mix": pair.name, "deviation_E": own.real, "deviation_phase_deg": float(np.degrees(own.imag))}
-        for name, model in (("doubts", 0j), ("band", own)):
-            half = made[pair.name].band(model)
-            row[f"E_in_{name}"] = float((np.abs(off[pair.name].real) <= half.real).mean())
-            row[f"phase_in_{name}"] = float((np.abs(off[pair.name].imag) <= half.imag).mean())
-        rows.append(row)
-    return pd.DataFrame(rows)
-
-
 def overall(errors: pd.DataFrame) -> pd.DataFrame:
     """One row for each forecast: errors of each mix and of all together."""
     rows = []
@@ -367,11 +223,8 @@ def overall(errors: pd.DataFrame) -> pd.DataFrame:
 def run(job: Any) -> None:
     """From the files of the rule to its tables."""
     given, made = job.input, job.output
-    networks = Networks(kept_in(given.packings))
-    pairs = read_pairs(given.mixes, read_recipe(given.recipe))
-    errors, points = compare(pairs, networks)
-    tables = {"errors": errors, "points": points, "overall": overall(errors), "bands": bands(pairs, networks)}
-    for name, table in tables.items():
+    errors, points = compare(read_pairs(given.mixes, read_recipe(given.recipe)))
+    for name, table in {"errors": errors, "points": points, "overall": overall(errors)}.items():
         write_table(made[name], table)
 
 

@@ -15,8 +15,8 @@ import pandas as pd
 from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.forecasting.forecast import Networks, Settings, kept_in, modulus_of
 from asphalt_nscd.forecasting.recipe import Grading, Recipe, read_recipe
+from asphalt_nscd.forecasting.scheme import modulus_of_mix
 from asphalt_nscd.rheology.published_laws import read_published
 
 # S = 1.157e-7 t^-0.368 exp(-index) (softening point - T)^5 [MPa], with t = 1 / omega.
@@ -48,7 +48,7 @@ def stiffness(penetration: float, temperature: np.ndarray, omega: np.ndarray) ->
     return np.where(known, modulus, np.nan) * np.exp(0.5j * np.pi * EXPONENT)
 
 
-def compare_paper(grading: str | Path, laws: str | Path, recipe: Recipe, networks: Networks) -> pd.DataFrame:
+def compare_paper(grading: str | Path, laws: str | Path, recipe: Recipe) -> pd.DataFrame:
     """The paper's mix forecast from the grade of its binder, beside Table 3: |E*| [MPa] and phase of each point.
 
     All else is that of the recipe: the paper gives neither binder content nor air voids nor densities. `grading` is a
@@ -60,7 +60,6 @@ def compare_paper(grading: str | Path, laws: str | Path, recipe: Recipe, network
     passing = 0.01 * table.numbers("passing_percent", Limits(0.0, 100.0, "give per cent that passes"))
     order = np.argsort(sieve)
     own = replace(recipe, grading=Grading(sieve[order], passing[order]), file=str(grading))
-    levels = networks.chain(own, Settings(), 1)
     rows = []
     for temperature, law in zip(*read_published(laws), strict=True):
         omega = 2.0 * np.pi * np.array(FREQUENCIES)
@@ -69,7 +68,7 @@ def compare_paper(grading: str | Path, laws: str | Path, recipe: Recipe, network
         )
         known = np.isfinite(binder).all(axis=0)
         measured = law.complex_modulus(omega[known])
-        made = modulus_of(levels, recipe.aggregate, binder[:, known])
+        made = np.array([modulus_of_mix(own, of[known]) for of in binder])
         middle = made[list(PENETRATIONS).index("middle")]
         for k, frequency in enumerate(np.array(FREQUENCIES)[known]):
             rows.append(
@@ -91,8 +90,7 @@ def compare_paper(grading: str | Path, laws: str | Path, recipe: Recipe, network
 def run(job: Any) -> None:
     """From the files of the rule to its tables."""
     given, made = job.input, job.output
-    networks = Networks(kept_in(made.packings))
-    write_table(made.table, compare_paper(given.grading, given.laws, read_recipe(given.recipe), networks))
+    write_table(made[0], compare_paper(given.grading, given.laws, read_recipe(given.recipe)))
 
 
 if __name__ == "__main__":

@@ -15,10 +15,10 @@ from scipy.stats import t as student
 from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.forecasting.forecast import Networks, Settings, kept_in, modulus_of
+from asphalt_nscd.forecasting.binders import BinderLaw
 from asphalt_nscd.forecasting.recipe import Recipe, read_recipe
 from asphalt_nscd.forecasting.rivals import hirsch, witczak
-from asphalt_nscd.rheology.spectrum import Spectrum
+from asphalt_nscd.forecasting.scheme import modulus_of_mix
 
 STEP = 0.01  # of the volume: slopes are taken between so much less air and so much more
 BINDER = np.geomspace(1e4, 6e8, 60) * np.exp(
@@ -35,7 +35,7 @@ class _AnyBinder:
         return BINDER
 
 
-def compare_voids(folder: str | Path, recipe: Recipe, networks: Networks) -> pd.DataFrame:
+def compare_voids(folder: str | Path, recipe: Recipe) -> pd.DataFrame:
     """d ln|E*| / d air voids [% per %], measured, forecast, by RIVALS, in a row for each temperature and frequency.
 
     Measured: regression within mixes, with its standard error and the probability of a forecast as far off. Conditions
@@ -50,7 +50,7 @@ def compare_voids(folder: str | Path, recipe: Recipe, networks: Networks) -> pd.
     names = ["forecast", *RIVALS]
     tests[names] = 0.0
     for _, section in tests.groupby("section"):
-        surfaces = _surfaces(section, recipe, networks)
+        surfaces = _surfaces(section, recipe)
         for _, state in section.groupby(["mix", "temperature_C", "frequency_Hz"]):
             level = float(np.log(1e6 * state["E_MPa"]).mean())
             for name, surface in surfaces.items():
@@ -88,19 +88,18 @@ def _row(condition: dict[str, float], group: pd.DataFrame, names: list[str]) -> 
     }
 
 
-def _surfaces(section: pd.DataFrame, recipe: Recipe, networks: Networks) -> dict[str, np.ndarray]:
+def _surfaces(section: pd.DataFrame, recipe: Recipe) -> dict[str, np.ndarray]:
     """ln|E*| (3, b) of the mix of a section for each BINDER, at less air, its own and more, by each model."""
     air = float(section["Va_pct"].mean()) / 100.0
     stone = float(
         ((100.0 - section["VMA_pct"]) / (100.0 - section["Va_pct"])).mean()
     )  # of the volume without air
     per_stone = (1.0 - stone) / stone * recipe.binder_density / recipe.aggregate_density
-    own = replace(recipe, binder_share=per_stone / (1.0 + per_stone), binder=cast(Spectrum, _AnyBinder()))
+    own = replace(recipe, binder_share=per_stone / (1.0 + per_stone), binder=cast(BinderLaw, _AnyBinder()))
     surfaces: dict[str, list[np.ndarray]] = {name: [] for name in ("forecast", *RIVALS)}
     for voids in (air - STEP, air, air + STEP):
         mix = replace(own, voids=voids)
-        levels = networks.chain(mix, Settings(), 1)
-        surfaces["forecast"].append(modulus_of(levels, recipe.aggregate, BINDER))
+        surfaces["forecast"].append(modulus_of_mix(mix, BINDER))
         for name, rival in RIVALS.items():
             surfaces[name].append(rival(mix))
     return {name: np.log(np.abs(np.array(moduli))) for name, moduli in surfaces.items()}
@@ -137,8 +136,7 @@ def _specimens(folder: Path) -> pd.DataFrame:
 def run(job: Any) -> None:
     """From the files of the rule to its tables."""
     campaign = Path(job.input.campaign[0]).parent
-    recipe, packings = read_recipe(job.input.recipe), kept_in(job.input.packings)
-    write_table(job.output[0], compare_voids(campaign, recipe, Networks(packings)))
+    write_table(job.output[0], compare_voids(campaign, read_recipe(job.input.recipe)))
 
 
 if __name__ == "__main__":

@@ -76,7 +76,6 @@ def test_arguments_of_a_public_function_are_described_one_by_one(function):
     [
         (an.pour, "deposit"),
         (an.specimen, "trim"),
-        (an.forecast, "forecast"),
         (an.solve_contacts, "fclib"),
         (friction.solve_contacts, "fclib"),
     ],

@@ -77,7 +77,7 @@ def test_tables_are_no_wider_than_a_page(page, name, text):
         ("bond_readings", "paper/bond_readings"),
         ("reconstructions", "paper/reconstructions"),
         ("attack", "attack/summary"),
-        ("wrong_recipes", "forecast/wrong_recipes"),
+        ("forecast_tried", "forecast/blind_tried"),
         ("forecast_blind", "forecast/blind_overall"),
         ("benchmark", "benchmark/beside"),
         ("growth", "benchmark/growth"),

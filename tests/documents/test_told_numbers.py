@@ -25,15 +25,6 @@ def readme() -> str:
     return " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
 
 
-def test_a_law_for_each_bond_against_two_other_solutions():
-    table = published("benchmark/films").abs()
-    assert table[["E_difference_percent", "E_from_map_percent"]].to_numpy().max() < 0.1
-    assert table[["phase_difference_deg", "phase_from_map_deg"]].to_numpy().max() < 0.1
-    told = "within 0.1 %, and its phase within 0.1°, of two other solutions"
-    assert told in page("core")
-    assert f"miss single bonds by up to {table.largest_bond_error_percent.max():.0f} %" in page("core")
-
-
 def test_packings_of_another_program():
     over = published("benchmark/outside").set_index(["bonds", "poured_by"]).E_over_law
     assert set(over["facets"].round(3)) <= {0.995, 0.996} and "is 0.995 of the law" in page("packings")
@@ -64,29 +55,10 @@ def test_no_bitumen_of_the_paper_s_grade_is_stiff_enough():
     assert "no such bitumen makes a mix as stiff as Table 3 between 10 and 20 °C" in page("forecast")
 
 
-def test_errors_of_the_law_of_a_film():
-    text = page("film")
-    pairs, shears, cells = (published(f"film/{name}") for name in ("pairs", "shears", "cells"))
-    assert 100 * pairs.error.abs().max() < 5 and "two spheres that approach: within 5 %" in text
-    errors = 100 * shears.set_index("test").error
-    assert f"rigid spheres that slide: within {errors['free sides'].abs().max():.0f} %" in text
-    least, most = -errors["lattice"].max(), -errors["lattice"].min()
-    assert f"sliding in a cubic lattice: {least:.0f} to {most:.0f} % too soft" in text
-    assert 100 * cells.E_error.abs().max() < 10 < 100 * cells.G_error.abs().max() < 11
-    assert "networks: E within 10 %, G just over" in text
-
-
 def test_phases_of_ncat_differ_between_mixes():
     table = published("attack/machine_measured").set_index("where").value
     mixes = table[table.index.str.contains("_")]
     assert len(mixes) == 9 and f"({mixes.min():.1f} to {mixes.max():.1f} degrees)" in page("machine")
-
-
-def test_wrong_recipes_under_the_other_truth():
-    table = published("forecast/wrong_recipes")
-    table = table[(table.limits == 3) & (table.densities == "yes") & (table.truth == "differential")]
-    least, most = 100 * table.named.min(), 100 * table.named.max()
-    assert f"differential scheme as truth {least:.0f} to {most:.0f} % are named" in page("forecast")
 
 
 def test_how_drawn_tables_and_calls_end():

@@ -1,12 +1,9 @@
-"""A recipe, and packings that need no pouring: spheres about a lattice, the outermost inside the box."""
+"""A recipe."""
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 
-from asphalt_nscd.forecasting.forecast import Networks
-from asphalt_nscd.forecasting.packing import LARGEST, LevelPacking
 from asphalt_nscd.forecasting.recipe import recipe_of
 
 CONTENT = {
@@ -37,19 +34,3 @@ def content():
 @pytest.fixture(scope="session")
 def recipe():
     return recipe_of(CONTENT)
-
-
-@pytest.fixture(scope="session")
-def packing():
-    """Touching spheres of one size on a cubic lattice, 9 x 9 x 9."""
-    radius = LARGEST / 2.0
-    at = radius + LARGEST * np.stack(np.meshgrid(*3 * [np.arange(9)], indexing="ij"), axis=-1).reshape(-1, 3)
-    jitter = 1e-3 * LARGEST * np.random.default_rng(1).standard_normal(at.shape)
-    box = np.full(3, 9.0 * LARGEST)
-    return LevelPacking(at + jitter, np.full(len(at), radius), box, 1, np.pi / 6.0, 6.0)
-
-
-@pytest.fixture(scope="session")
-def networks(packing):
-    """Of this packing at every level; each map is solved once for all tests."""
-    return Networks(lambda level, seed: packing)

@@ -1,26 +1,8 @@
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
-from asphalt_nscd.forecasting.levels import levels_of
-from asphalt_nscd.forecasting.recipe import Grading, recipe_of
-from asphalt_nscd.forecasting.rivals import hirsch, mori_tanaka, self_consistent, witczak
+from asphalt_nscd.forecasting.rivals import hirsch, witczak
 from asphalt_nscd.measurements.units import PSI
-
-
-def test_dilute_grains_stiffen_a_flowing_matrix_as_einstein_says(content):
-    """1 + 2.5 phi for rigid spheres in an incompressible matrix."""
-    content["binder_percent_by_mass"], content["air_voids_percent"] = 20, 0
-    recipe = recipe_of(content)
-    recipe = replace(recipe, binder=replace(recipe.binder, glassy_modulus=1e3))
-    diluted = replace(
-        recipe, binder_share=0.98, grading=Grading(np.array([2.1e-3, 10e-3]), np.array([1e-9, 1.0]))
-    )
-    (level,) = levels_of(diluted)[-1:]
-    for rival in (mori_tanaka, self_consistent):
-        amplified = (rival(diluted) / diluted.binder_modulus()).real
-        assert amplified == pytest.approx(1 + 2.5 * level.fraction, rel=2e-3)
 
 
 def test_hirsch_at_a_point_worked_by_hand(recipe):
@@ -55,7 +37,3 @@ def test_witczak_at_a_point_worked_by_hand(recipe):
     slow = np.exp(np.dot([-0.7814, -0.5785, 0.8834], [1, np.log10(g), np.log10(lag)]))
     log = -0.349 + 0.754 * g**-0.0052 * first + second / (1 + slow)
     assert witczak(recipe)[2] == pytest.approx(10**log * PSI, rel=1e-6)
-
-
-def test_a_mean_field_loses_stiffness_with_air(recipe):
-    assert (abs(mori_tanaka(replace(recipe, voids=0.09))) < abs(mori_tanaka(recipe))).all()

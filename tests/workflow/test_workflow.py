@@ -194,7 +194,7 @@ def test_bonds_are_made_ready_to_break_only_where_the_campaign_tests(plan_of):
     assert without == {*other, *loose, *(f"facets/{model}" for model in loose)}
     assert len(lines) == 15
     (line,) = plan.commands("timings")
-    forecast = ("packings", "recipe", "mixes", "voids")
+    forecast = ("recipe", "mixes", "voids")
     assert all(f" results/paper/benchmarks/forecast_{part}.tsv" in line for part in forecast)
 
 

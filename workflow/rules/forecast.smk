@@ -5,30 +5,10 @@ RECIPE = "data/forecast/recipe.yaml"
 FORECAST_FILES = ["forecast.csv", "rivals.csv", "law.json", "forecast.json", "forecast.html"]
 
 
-rule forecast_packings:
-    """Filler, sand and stones, each poured from its own part of the grading."""
-    input:
-        recipe=RECIPE,
-        code=studied("forecast.packings"),
-    output:
-        directory("results/forecast/packings"),
-    log:
-        "results/forecast/logs/packings.log",
-    benchmark:
-        "<results>/benchmarks/forecast_packings.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Pour the levels of the recipe"
-    script:
-        "../../studies/forecast/packings.py"
-
-
 rule forecast_recipe:
-    """One recipe: modulus and phase with their doubts, law and page."""
+    """One recipe: modulus and phase with their band, law and page."""
     input:
         recipe=RECIPE,
-        packings="results/forecast/packings",
         code=code("forecast", "reporting.pages.forecast_page"),
     output:
         expand("results/forecast/recipe/{file}", file=FORECAST_FILES),
@@ -43,18 +23,17 @@ rule forecast_recipe:
     message:
         "Forecast the mix of the recipe"
     shell:
-        "asphalt-nscd forecast {input.recipe} --packings {input.packings} --output {params.folder} > {log} 2>&1"
+        "asphalt-nscd forecast {input.recipe} --output {params.folder} > {log} 2>&1"
 
 
 rule forecast_mixes:
-    """Six mixes whose binder was measured too: what each part of the physics is worth, and who else does as well."""
+    """Six mixes whose binder was measured too: who else does as well."""
     input:
         recipe=RECIPE,
         mixes="data/forecast/binder_mix.csv",
-        packings="results/forecast/packings",
         code=studied("forecast.mixes"),
     output:
-        **{table: f"results/forecast/mixes/{table}.csv" for table in ("errors", "points", "overall", "bands")},
+        **{table: f"results/forecast/mixes/{table}.csv" for table in ("errors", "points", "overall")},
     log:
         "results/forecast/logs/mixes.log",
     benchmark:
@@ -72,7 +51,6 @@ rule forecast_voids:
     input:
         recipe=RECIPE,
         campaign=[f"data/ncat/{table}" for table in sorted(os.listdir(CLONE / "data/ncat")) if table.endswith(".csv")],
-        packings="results/forecast/packings",
         code=studied("forecast.voids"),
     output:
         "results/forecast/voids.csv",
@@ -95,12 +73,12 @@ rule forecast_blind:
         recipes="data/mixes50/recipes.csv",
         moduli="data/mixes50/modulus.csv",
         seen="data/mixes50/seen.csv",
-        packings="results/forecast/packings",
         code=studied("forecast.blind"),
     output:
         points="results/forecast/blind.csv",
         mixes="results/forecast/blind_mixes.csv",
         overall="results/forecast/blind_overall.csv",
+        tried="results/forecast/blind_tried.csv",
     log:
         "results/forecast/logs/blind.log",
     benchmark:
@@ -121,8 +99,7 @@ rule forecast_paper:
         laws="data/paper/table3_burgers.csv",
         code=studied("forecast.paper_mix"),
     output:
-        table="results/forecast/paper_mix.csv",
-        packings=directory("results/forecast/paper_packings"),
+        "results/forecast/paper_mix.csv",
     log:
         "results/forecast/logs/paper.log",
     benchmark:
@@ -143,30 +120,9 @@ SHOWN["forecast_figure"] = (
 RECORDED["forecast_provenance"] = ("forecast", ["mixes/overall.csv"])
 
 
-rule forecast_wrong_recipes:
-    """Recipes with one wrong input, drawn by models that are not the forecast's. Only on request."""
-    input:
-        recipe=RECIPE,
-        packings="results/forecast/packings",
-        code=studied("forecast.wrong_recipes"),
-    output:
-        "results/forecast/wrong_recipes.csv",
-    log:
-        "results/forecast/logs/wrong_recipes.log",
-    benchmark:
-        "<results>/benchmarks/forecast_wrong_recipes.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Name the wrong inputs of drawn recipes"
-    script:
-        "../../studies/forecast/wrong_recipes.py"
-
-
 rule forecast:
     """A mix from its binder and recipe alone, and what that is worth."""
     input:
-        rules.forecast_packings.output,
         rules.forecast_recipe.output,
         rules.forecast_mixes.output,
         rules.forecast_voids.output,

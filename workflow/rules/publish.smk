@@ -30,18 +30,15 @@ PUBLISHED = {
     "publish_forecast": Published(
         "forecast",
         [
-            *(f"mixes/{name}.csv" for name in ("overall", "errors", "bands")),
-            *(
-                f"{name}.csv"
-                for name in ("voids", "paper_mix", "wrong_recipes", "blind", "blind_mixes", "blind_overall")
-            ),
+            *(f"mixes/{name}.csv" for name in ("overall", "errors")),
+            *(f"{name}.csv" for name in ("voids", "paper_mix", "blind", "blind_mixes", "blind_overall", "blind_tried")),
             "figures/fig_forecast.png",
             "provenance.json",
         ],
         {
             "forecast": "mixes/overall.csv",
-            "wrong_recipes": "wrong_recipes.csv",
             "forecast_blind": "blind_overall.csv",
+            "forecast_tried": "blind_tried.csv",
         },
     ),
     "publish_measured": Published(

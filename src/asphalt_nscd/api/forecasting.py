@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -14,16 +14,12 @@ from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.forecasting import written
-from asphalt_nscd.forecasting.forecast import Forecast as ForecastOfLevels
-from asphalt_nscd.forecasting.forecast import Networks, kept_in
+from asphalt_nscd.forecasting.forecast import Forecast as ForecastOfRecipe
 from asphalt_nscd.forecasting.forecast import forecast as forecast_of
 from asphalt_nscd.forecasting.recipe import read_recipe, recipe_of
-from asphalt_nscd.nscd.core_cache import cache_base
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-Progress = Callable[[str, float, float], None]
 
 
 @dataclass(frozen=True)
@@ -33,15 +29,15 @@ class Forecast:
     Parameters
     ----------
     found : forecasting.forecast.Forecast
-        What `forecast` computed, level by level.
+        What `forecast` computed.
 
     Examples
     --------
     >>> mix = forecast("data/forecast/recipe.yaml")  # doctest: +SKIP
-    >>> mix.table, mix.law, mix.summary["largest_doubt"], mix.plot()  # doctest: +SKIP
+    >>> mix.table, mix.law, mix.summary["largest"], mix.plot()  # doctest: +SKIP
     """
 
-    found: ForecastOfLevels
+    found: ForecastOfRecipe
 
     @cached_property
     def table(self) -> pd.DataFrame:
@@ -57,7 +53,7 @@ class Forecast:
 
     @cached_property
     def rivals(self) -> pd.DataFrame:
-        """The same points as mean fields and regressions forecast them.
+        """The same points as regressions and a mean field forecast them.
 
         Returns
         -------
@@ -84,7 +80,7 @@ class Forecast:
         Returns
         -------
         mapping
-            Levels, volume fractions, packings, amplifications, and what each doubt changes.
+            Volumes, amplifications, and what each input moves.
         """
         return written.summary(self.found)
 
@@ -100,17 +96,17 @@ class Forecast:
 
         return shown_in_notebooks(curves(self.found, self.table, self.rivals))
 
-    def plot_levels(self) -> Figure:
-        """Draw the grading, and a cut through the packing of each level.
+    def plot_parts(self) -> Figure:
+        """Draw the grading, the volumes, and how much volumes, contacts and dry skeleton amplify the binder.
 
         Returns
         -------
         Figure
             A Matplotlib figure.
         """
-        from asphalt_nscd.reporting.figures.forecast_panels import levels
+        from asphalt_nscd.reporting.figures.forecast_panels import parts
 
-        return shown_in_notebooks(levels(self.found))
+        return shown_in_notebooks(parts(self.found))
 
     def write(self, folder: str | Path) -> list[str]:
         """Write the files of `asphalt-nscd forecast`, its page excepted.
@@ -133,30 +129,18 @@ class Forecast:
 
 
 @checked
-def forecast(
-    recipe: str | Path | Mapping[str, Any],
-    *,
-    packings: str | Path | None = None,
-    seeds: int = 2,
-    progress: Progress = lambda stage, done, total: None,
-) -> Forecast:
+def forecast(recipe: str | Path | Mapping[str, Any]) -> Forecast:
     """Forecast |E*| and phase of a mix from its binder and recipe.
 
     Parameters
     ----------
     recipe : path or mapping
         A YAML file as data/forecast/recipe.yaml, or its content (docs/forecast.md).
-    packings : path, optional
-        Folder of packings to use and to fill; else one in the user's cache.
-    seeds : int
-        Packings of each level, at least one; the forecast is their mean.
-    progress : callable
-        progress(stage, done, total), called as the work goes on.
 
     Returns
     -------
     Forecast
-        |E*| and phase with their doubt, the law of the mix, and what rivals forecast.
+        |E*| and phase with their band, the law of the mix, and what rivals forecast.
 
     Raises
     ------
@@ -165,12 +149,14 @@ def forecast(
 
     Examples
     --------
+    >>> grading = {19: 100, 9.5: 85, 4.75: 60, 2.36: 42, 0.6: 20, 0.15: 8, 0.075: 5}
+    >>> known = {"binder": {"grade": "PG 64-22"}, "binder_percent_by_mass": 5.2, "air_voids_percent": 7.0}
+    >>> mix = forecast({**known, "grading": grading, "temperatures_C": [21.1], "frequencies_Hz": [10.0]})
+    >>> mix.table[["E_MPa", "phase_deg"]].round(-1).iloc[0].tolist()
+    [6920.0, 20.0]
     >>> forecast({"name": "a mix"})
     Traceback (most recent call last):
     asphalt_nscd.files.errors.InputError: recipe: 'binder' is a required property; see data/forecast/recipe.yaml.
     """
     asked = recipe_of(recipe) if isinstance(recipe, Mapping) else read_recipe(recipe)
-    # Kept for later forecasts: a packing depends on the grading alone.
-    folder = Path(cache_base()) / "packings" if packings is None else Path(packings)
-    networks = Networks(kept_in(folder, progress))
-    return Forecast(forecast_of(asked, networks, seeds=tuple(range(1, seeds + 1)), progress=progress))
+    return Forecast(forecast_of(asked))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -13,23 +13,24 @@ import yaml
 from jsonschema import Draft202012Validator
 from jsonschema.exceptions import best_match
 
-from asphalt_nscd.files.csvinput import Limits, read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
-from asphalt_nscd.forecasting.film import Solid
-from asphalt_nscd.rheology.parabolic import TwoS2P1D
-from asphalt_nscd.rheology.shift import WLF, Arrhenius
-from asphalt_nscd.rheology.spectrum import Spectrum
-from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
+from asphalt_nscd.forecasting.binders import UNSTATED, Binder, BinderLaw, Blend, read_binder
+from asphalt_nscd.forecasting.solid import Solid
 
 DEFAULT_FREQUENCIES = (0.1, 0.3, 1.0, 3.0, 10.0, 25.0)  # Hz
-DEFAULT_TEMPERATURES = (-10.0, 0.0, 10.0, 15.0, 20.0, 30.0)  # degC, of a binder with a shift
-UNSTATED = 15.0  # degC, what an unstated reference temperature is called
+DEFAULT_TEMPERATURES = (-10.0, 0.0, 10.0, 15.0, 20.0, 30.0, 40.0)  # degC, of a binder with a shift
 COARSE = 0.5e-3  # m, the coarsest sieve of a grading at least
 FINE = 0.15e-3  # m, the finest sieve of a grading at most, unless nothing passes it
-LEAST_VOIDS = 0.3  # per cent, if any: less is a share of one
-LARGEST_MISFIT = 0.3  # rms of ln E* of a binder's law about its table
-DENSEST = 0.92  # of the volume: more solids than any grading packs
+LEAST_VOIDS = 0.15  # per cent, if any: less is a share of one
+DENSEST = 0.97  # of the volume without air: more solids than any mix has
+USUAL: dict[
+    str, Any
+] = {  # crushed rock and paving bitumen; voids of dry compacted filler, mostly 28 to 38 % (EN 13043)
+    "density_kg_m3": {"aggregate": 2670.0, "binder": 1030.0},
+    "aggregate": {"E_GPa": 60.0, "poisson": 0.2},
+    "rigden_voids_percent": 35.0,
+}
 
 
 @dataclass(frozen=True)
@@ -48,17 +49,18 @@ class Grading:
 class Recipe:
     """What a mix is made of.
 
-    `binder` is the law of Young's modulus, `shifted` where it holds at other temperatures than its reference, which is
-    UNSTATED where none is stated; `binder_share` of the mass, `voids` of the volume of the mix; densities in kg/m3;
-    `temperature` [degC] and `frequency` [Hz] (n,) of each point of the forecast. `file` is for messages.
+    `binder` is the law of Young's modulus, `shifted` where it holds at other temperatures than its reference; `caveat`
+    says what a reader must know of it. `binder_share` of the mass, `voids` of the volume of the mix; `rigden_voids` of
+    compacted filler; densities in kg/m3; `temperature` [degC] and `frequency` [Hz] (n,) of each point of the forecast.
+    `file` is for messages.
     """
 
     name: str
     source: str
     file: str
-    binder: Spectrum
+    binder: BinderLaw
     shifted: bool
-    temperature_stated: bool
+    caveat: str
     binder_share: float
     voids: float
     aggregate_density: float
@@ -67,19 +69,13 @@ class Recipe:
     grading: Grading
     temperature: np.ndarray
     frequency: np.ndarray
+    rigden_voids: float = 0.35
 
     @property
     def aggregate_fraction(self) -> float:
         """Volume of the aggregate over that of aggregate and binder."""
         stone = (1.0 - self.binder_share) / self.aggregate_density
         return stone / (stone + self.binder_share / self.binder_density)
-
-    @property
-    def caveat(self) -> str:
-        """What a reader of the temperatures must know; empty where they are the recipe's own."""
-        if self.temperature_stated:
-            return ""
-        return f"The recipe states no temperature of its binder's law: {UNSTATED:g} °C stands for it."
 
     def binder_modulus(self) -> np.ndarray:
         """E* [Pa] of the binder at each point."""
@@ -112,22 +108,23 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
             f"{path}: air_voids_percent: {content['air_voids_percent']:g} % is less than any mix has; give per cent, "
             f"or 0 for none."
         )
+    content = USUAL | content
     aggregate = Solid(content["aggregate"]["E_GPa"] * 1e9, content["aggregate"]["poisson"])
-    binder, shifted = _binder(content["binder"], path)
-    stiffest = getattr(binder, "glassy_modulus", 0.0)
+    binder = _binder(content, path)
+    stiffest = getattr(binder.law, "glassy_modulus", 0.0)
     if stiffest >= aggregate.modulus:
         raise InputError(
             f"{path}: the binder's glassy modulus, {stiffest / 1e9:.3g} GPa, is not below the aggregate's "
             f"{aggregate.modulus / 1e9:.3g} GPa; give E0_MPa in MPa and E_GPa in GPa."
         )
-    temperature, frequency = _points(content, binder, shifted, path)
+    temperature, frequency = _points(content, binder, path)
     recipe = Recipe(
         name=content.get("name", Path(path).stem),
         source=content.get("source", "not stated"),
         file=str(path),
-        binder=binder,
-        shifted=shifted,
-        temperature_stated={"table", "reference_temperature_C"}.intersection(content["binder"]) != set(),
+        binder=binder.law,
+        shifted=binder.shifted,
+        caveat=_caveat(binder, temperature),
         binder_share=content["binder_percent_by_mass"] / 100.0,
         voids=content["air_voids_percent"] / 100.0,
         aggregate_density=content["density_kg_m3"]["aggregate"],
@@ -136,6 +133,7 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
         grading=_grading(content["grading"], path),
         temperature=temperature,
         frequency=frequency,
+        rigden_voids=content["rigden_voids_percent"] / 100.0,
     )
     if recipe.aggregate_fraction > DENSEST:
         raise InputError(
@@ -143,6 +141,22 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
             f"grains can ({100 * DENSEST:.0f} %); correct binder_percent_by_mass or density_kg_m3."
         )
     return recipe
+
+
+def _caveat(binder: Binder, temperature: np.ndarray) -> str:
+    """What a reader of the answer must know of the binder's law; empty if nothing."""
+    said = [binder.caution]
+    if not binder.temperature_stated:
+        said.append(f"The recipe states no temperature of its binder's law: {UNSTATED:g} °C stands for it.")
+    if binder.measured:
+        low, high = binder.measured
+        beyond = np.unique(temperature[(temperature < low) | (temperature > high)])
+        if beyond.size:
+            said.append(
+                f"The table of the binder goes from {low:g} to {high:g} °C: its law is extrapolated at "
+                f"{', '.join(f'{t:g}' for t in beyond)} °C."
+            )
+    return " ".join(filter(None, said))
 
 
 def _keyed(grading: Any, path: str | Path) -> Any:
@@ -202,61 +216,27 @@ def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
     return Grading(sieve, passing)
 
 
-def _binder(content: Mapping[str, Any], path: str | Path) -> tuple[Spectrum, bool]:
-    if "table" in content:
-        return _fit_rheometer(Path(path).parent / content["table"], content["poisson"]), True
-    reference = content.get("reference_temperature_C", UNSTATED)
-    shift: WLF | Arrhenius = Arrhenius(150e3, reference)  # never asked for another temperature
-    if "shift" in content:
-        of = content["shift"]
-        shift = (
-            WLF(of["wlf_C1"], of["wlf_C2_K"], reference)
-            if "wlf_C1" in of
-            else Arrhenius(of["activation_energy_J_mol"], reference)
-        )
-    values = {
-        "static_modulus": content["E00_MPa"] * 1e6,
-        "glassy_modulus": content["E0_MPa"] * 1e6,
-        "k": content["k"],
-        "h": content["h"],
-        "delta": content["delta"],
-        "tau": content["tau_s"],
-        "beta": content["beta"],
-    }
-    refusal = TwoS2P1D.refusal(values)
-    if refusal:
-        raise InputError(f"{path}: binder: {refusal}; correct it.")
-    return TwoS2P1D(**values, shift=shift), "shift" in content
-
-
-def _fit_rheometer(path: Path, poisson: float) -> Spectrum:
-    """2S2P1D law with a WLF shift of Young's modulus, E = 2 (1 + nu) G, fitted to a table."""
-    table = read_csv(path)
-    table.require(["temperature_C", "frequency_Hz", "G_MPa", "phase_deg"])
-    temperature = table.numbers("temperature_C", Limits(-60.0, 120.0, "give it in degC"))
-    frequency = table.numbers("frequency_Hz", Limits(1e-8, 1e6, "give it in Hz, above zero"))
-    shear = table.numbers("G_MPa", Limits(1e-9, 5e3, "give |G*| in MPa, above zero"))
-    phase = table.numbers("phase_deg", Limits(0.0, 90.0, "give it in degrees"))
-    # In radians a phase is 1.57 at most, and no binder stays below 2 degrees in all of a table.
-    if phase.max() < 2.0:
-        raise InputError(f"{path}: phase_deg is {phase.max():.3g} at most; give it in degrees.")
-    modulus = 2.0 * (1.0 + poisson) * 1e6 * shear * np.exp(1j * np.radians(phase))
-    reference = float(np.unique(temperature)[np.unique(temperature).size // 2])
-    try:
-        fit = fit_spectrum(2.0 * np.pi * frequency, temperature, modulus, reference, Form())
-    except InputError as error:
-        raise InputError(f"{path}: {error}") from None
-    if fit.rms_log_residual > LARGEST_MISFIT:
+def _binder(content: Mapping[str, Any], path: str | Path) -> Binder:
+    """The binder of the mix, that of recycled asphalt in it."""
+    binder = read_binder(content["binder"], path)
+    rap = content.get("rap")
+    if rap is None:
+        return binder
+    old = read_binder(rap["binder"], path)
+    share = rap["percent_by_mass"] * rap["binder_percent_by_mass"] / 100.0 / content["binder_percent_by_mass"]
+    if share > 1.0:
         raise InputError(
-            f"{path}: no law of a binder comes nearer to G_MPa and phase_deg than {100 * fit.rms_log_residual:.0f} %; "
-            f"check columns and units."
+            f"{path}: rap: brings {share * content['binder_percent_by_mass']:.3g} % of binder into a mix of "
+            f"{content['binder_percent_by_mass']:g} %; binder_percent_by_mass is all binder, old and new."
         )
-    return fit.law
+    if binder.shifted != old.shifted:
+        raise InputError(f"{path}: rap.binder: one binder holds at one temperature alone; give both a shift.")
+    caution = " ".join(filter(None, [binder.caution, old.caution]))
+    law = Blend(binder.law, old.law, share)
+    return replace(binder, law=law, caution=caution)
 
 
-def _points(
-    content: Mapping[str, Any], binder: Spectrum, shifted: bool, path: str | Path
-) -> tuple[np.ndarray, np.ndarray]:
+def _points(content: Mapping[str, Any], binder: Binder, path: str | Path) -> tuple[np.ndarray, np.ndarray]:
     """Temperature and frequency of each point, all frequencies at each temperature."""
     if "frequencies_Hz" in content and "angular_frequencies_rad_s" in content:
         raise InputError(f"{path}: frequencies_Hz and angular_frequencies_rad_s; give one of them.")
@@ -264,9 +244,11 @@ def _points(
         frequency = np.asarray(content["angular_frequencies_rad_s"], float) / (2.0 * np.pi)
     else:
         frequency = np.asarray(content.get("frequencies_Hz", DEFAULT_FREQUENCIES), float)
-    reference = binder.shift.reference_temperature
-    if shifted:
-        temperature = np.asarray(content.get("temperatures_C", DEFAULT_TEMPERATURES), float)
+    reference = binder.law.shift.reference_temperature
+    if binder.shifted:
+        low, high = binder.measured or (-np.inf, np.inf)
+        usual = [t for t in DEFAULT_TEMPERATURES if low <= t <= high] or [reference]
+        temperature = np.asarray(content.get("temperatures_C", usual), float)
     else:
         temperature = np.array([reference])
         for asked in content.get("temperatures_C", ()):
@@ -276,7 +258,7 @@ def _points(
                     f"{reference:g} degC; add binder.shift, or leave temperatures_C out."
                 )
     try:
-        binder.shift.factor(temperature)
+        binder.law.shift.factor(temperature)
     except InputError as error:
         raise InputError(f"{path}: temperatures_C: {error}") from None
     grid = np.meshgrid(temperature, frequency, indexing="ij")

@@ -1,4 +1,4 @@
-"""What others would forecast from the same recipe: mean fields and regressions. Equations as published.
+"""What others would forecast from the same recipe: two regressions as published, and a mean field.
 
 One that is drawn has a title in `TITLES` of `reporting/figures/forecast_panels.py`, and a dash in `DASHES` of `style`.
 """
@@ -9,22 +9,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from asphalt_nscd.forecasting.levels import Level, levels_of
 from asphalt_nscd.forecasting.recipe import Recipe
+from asphalt_nscd.forecasting.scheme import Settings, modulus_of_mix
 from asphalt_nscd.measurements.units import PSI
-
-BINDER_BULK = 2.5e9  # Pa
-ROUNDS = 2000  # of the self-consistent iteration
-
-
-def mori_tanaka(recipe: Recipe) -> np.ndarray:
-    """E* (n,) [Pa]: stiff spheres in each level's matrix, then air voids in the mix (Mori & Tanaka 1973)."""
-    return _levels(recipe, _dilute_in_matrix)
-
-
-def self_consistent(recipe: Recipe) -> np.ndarray:
-    """E* (n,) [Pa]: grains of each level and its matrix as spheres in the level itself (Hill 1965)."""
-    return _levels(recipe, _self_consistent_moduli)
 
 
 def hirsch(recipe: Recipe) -> np.ndarray:
@@ -60,11 +47,15 @@ def witczak(recipe: Recipe) -> np.ndarray:
     return PSI * 10.0 ** (-0.349 + 0.754 * shear**-0.0052 * first + second / sigmoid) + 0j
 
 
+def differential(recipe: Recipe) -> np.ndarray:
+    """E* (n,) [Pa] of the differential scheme alone: the forecast without contacts."""
+    return modulus_of_mix(recipe, recipe.binder_modulus(), Settings(contacts=0.0, pressure=0.0))
+
+
 RIVALS: dict[str, Callable[[Recipe], np.ndarray]] = {
-    "mori_tanaka": mori_tanaka,
-    "self_consistent": self_consistent,
     "hirsch": hirsch,
     "witczak": witczak,
+    "differential": differential,
 }
 
 
@@ -73,61 +64,3 @@ def _volumetrics(recipe: Recipe) -> tuple[float, float]:
     binder = (1.0 - recipe.aggregate_fraction) * (1.0 - recipe.voids)
     vma = binder + recipe.voids
     return 100.0 * vma, 100.0 * binder / vma
-
-
-def _levels(recipe: Recipe, mix: Callable[..., tuple[np.ndarray, np.ndarray]]) -> np.ndarray:
-    """E* [Pa] after all levels and the air voids; bulk and shear moduli carried along."""
-    young = recipe.binder_modulus()
-    bulk = np.full(young.shape, BINDER_BULK, complex)
-    shear = 3.0 * bulk * young / (9.0 * bulk - young)
-    stone = recipe.aggregate
-    level: Level
-    for level in levels_of(recipe):
-        bulk, shear = mix(bulk, shear, stone.bulk, stone.shear, level.fraction)
-    bulk, shear = mix(bulk, shear, 0.0, 0.0, recipe.voids)
-    return 9.0 * bulk * shear / (3.0 * bulk + shear)
-
-
-def _dilute_in_matrix(
-    bulk: np.ndarray, shear: np.ndarray, other_bulk: float, other_shear: float, fraction: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Spheres in a matrix; for stiff ones the lower bound of Hashin & Shtrikman (1963)."""
-    alpha, beta = _sphere(bulk, shear)
-    mixed_bulk = bulk + fraction * (other_bulk - bulk) / (
-        1.0 + (1.0 - fraction) * alpha * (other_bulk / bulk - 1.0)
-    )
-    mixed_shear = shear + fraction * (other_shear - shear) / (
-        1.0 + (1.0 - fraction) * beta * (other_shear / shear - 1.0)
-    )
-    return mixed_bulk, mixed_shear
-
-
-def _self_consistent_moduli(
-    bulk: np.ndarray, shear: np.ndarray, other_bulk: float, other_shear: float, fraction: float
-) -> tuple[np.ndarray, np.ndarray]:
-    """Spheres of both phases in the mixture that they make, by iteration from the matrix."""
-    mixed_bulk, mixed_shear = _dilute_in_matrix(bulk, shear, other_bulk, other_shear, fraction)
-    ones = np.ones_like(bulk)
-    phases = (1.0 - fraction, bulk, shear), (fraction, other_bulk * ones, other_shear * ones)
-    for _ in range(ROUNDS):
-        alpha, beta = _sphere(mixed_bulk, mixed_shear)
-        seen = [
-            (
-                share / (1.0 + alpha * (k / mixed_bulk - 1.0)),
-                k,
-                share / (1.0 + beta * (g / mixed_shear - 1.0)),
-                g,
-            )
-            for share, k, g in phases
-        ]
-        volume, bulks, distortion, shears = (np.array(column) for column in zip(*seen, strict=True))
-        mixed_bulk = (volume * bulks).sum(axis=0) / volume.sum(axis=0)
-        mixed_shear = (distortion * shears).sum(axis=0) / distortion.sum(axis=0)
-    return mixed_bulk, mixed_shear
-
-
-def _sphere(bulk: np.ndarray, shear: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Eshelby's alpha and beta of a sphere in a medium."""
-    alpha = 3.0 * bulk / (3.0 * bulk + 4.0 * shear)
-    beta = 6.0 * (bulk + 2.0 * shear) / (5.0 * (3.0 * bulk + 4.0 * shear))
-    return alpha, beta

@@ -1,44 +1,48 @@
-"""What a forecast leaves: forecast.csv, rivals.csv, law.json and forecast.json."""
+"""What a forecast leaves: forecast.csv, rivals.csv, aashtoware.csv, law.json and forecast.json."""
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from scipy.interpolate import CubicSpline
 
 from asphalt_nscd.files.store import provenance, write_json, write_table
-from asphalt_nscd.forecasting.forecast import DOUBTS, MODEL, Forecast
-from asphalt_nscd.forecasting.levels import film_thickness
+from asphalt_nscd.forecasting.forecast import INPUTS, Forecast
+from asphalt_nscd.forecasting.recipe import Recipe
 from asphalt_nscd.forecasting.rivals import RIVALS
+from asphalt_nscd.forecasting.scheme import FILLER, binder_volume, modulus_of_mix
+from asphalt_nscd.measurements.units import PSI
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.laws_io import chain_content
-from asphalt_nscd.rheology.shift import WLF
+from asphalt_nscd.rheology.shift import Arrhenius
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 from asphalt_nscd.rheology.spectrum_io import spectrum_content
 
-TABLE, RIVAL_TABLE, LAW, SUMMARY = "forecast.csv", "rivals.csv", "law.json", "forecast.json"
+TABLE, RIVAL_TABLE, DESIGN, LAW, SUMMARY = (
+    "forecast.csv", "rivals.csv", "aashtoware.csv", "law.json", "forecast.json"
+)  # fmt: skip
 CHAIN_ERROR = 1e-3  # of ln E*
-FURTHER, SPREAD = (
-    np.array([0.0, 10.0, 20.0]),
-    np.geomspace(0.1, 100.0, 7),
-)  # K, rad/s: points of a law beside those asked
-SHOWN = (1e5, 1e6, 1e7, 1e8, 1e9)  # Pa, of the binder, at which amplifications are told
-WORDS = {
-    "packing": "the packing drawn",
-    "aggregate": f"the modulus of the aggregate, x {DOUBTS['aggregate']:g}",
-    "film_factor": f"the film between touching grains, x {DOUBTS['film_factor']:g}",
-    "skeleton_pressure": f"the pressure in dry contacts, / {DOUBTS['skeleton_pressure']:g}",
-    "voids": f"the air voids, + {100 * DOUBTS['voids']:g} %",
+IN_A_DECADE = 8  # points of a law at one temperature
+FURTHER = np.array([0.0, 10.0, 20.0])  # K: temperatures of a law beside those asked
+SPREAD = np.geomspace(0.1, 100.0, 7)  # rad/s, likewise
+DESIGN_F, DESIGN_HZ = (14, 40, 70, 100, 130), (0.1, 0.5, 1, 5, 10, 25)  # what AASHTOWare Pavement ME asks for
+PARTS = {
+    "volumes": {"contacts": 0.0, "pressure": 0.0},
+    "and contacts": {"pressure": 0.0},
+    "and dry skeleton": {},
 }
+SHOWN = (1e5, 1e6, 1e7, 1e8, 1e9)  # Pa, of the binder, at which amplifications are told
 
 
 def points(found: Forecast) -> pd.DataFrame:
     """The forecast as a table: one row for each temperature and frequency, with the band of |E*| and phase."""
     size, phase = np.abs(found.modulus), np.angle(found.modulus)
-    doubt = found.band(MODEL)
+    doubt = found.band()
     return pd.DataFrame(
         {
             "temperature_C": found.recipe.temperature,
@@ -72,7 +76,7 @@ def law_of_mix(found: Forecast) -> dict[str, Any]:
     omega = 2.0 * np.pi * recipe.frequency
 
     if recipe.shifted:
-        kind = "wlf" if isinstance(shift, WLF) else "arrhenius"
+        kind = "arrhenius" if isinstance(shift, Arrhenius) else "wlf"
         temperature, modulus = recipe.temperature, found.modulus
         if np.unique(temperature).size < 3 or temperature.size < 9:  # too few for shift and shape
             for further in shift.reference_temperature + FURTHER:
@@ -85,8 +89,7 @@ def law_of_mix(found: Forecast) -> dict[str, Any]:
         return spectrum_content(
             fit.law, source=source, rms_log_residual=fit.rms_log_residual, unseen=fit.unseen
         )
-    at_reference = partial(found.modulus_at, temperature=shift.reference_temperature)
-    chain, error = kelvin_chain(at_reference, omega.min(), omega.max(), CHAIN_ERROR)
+    chain, error = kelvin_chain(_smooth(found), omega.min(), omega.max(), CHAIN_ERROR)
     return chain_content(
         chain,
         source=source,
@@ -97,51 +100,78 @@ def law_of_mix(found: Forecast) -> dict[str, Any]:
     )
 
 
+def _smooth(found: Forecast) -> Callable[[np.ndarray], np.ndarray]:
+    """E* [Pa] at angular frequencies [rad/s] of the recipe's band and its one temperature, through points of it."""
+    reference = found.recipe.binder.shift.reference_temperature
+    omega = 2.0 * np.pi * found.recipe.frequency
+    low, high = 0.5 * omega.min(), 2.0 * omega.max()
+    at = np.geomspace(low, high, max(5, int(np.ceil(IN_A_DECADE * np.log10(high / low)))))
+    spline = CubicSpline(np.log(at), np.log(found.modulus_at(at, reference)))
+    return lambda omega: np.asarray(np.exp(spline(np.log(omega))))
+
+
+def design_points(found: Forecast) -> pd.DataFrame:
+    """|E*| [psi] at the temperatures [degF] and frequencies of AASHTOWare Pavement ME, a row for each temperature."""
+    rows = []
+    for fahrenheit in DESIGN_F:
+        modulus = found.modulus_at(2.0 * np.pi * np.array(DESIGN_HZ), (fahrenheit - 32.0) / 1.8)
+        told = (np.abs(modulus) / PSI).round()
+        rows.append(
+            {"temperature_F": fahrenheit}
+            | {f"E_psi_{f:g}_Hz": e for f, e in zip(DESIGN_HZ, told, strict=True)}
+        )
+    return pd.DataFrame(rows)
+
+
 def summary(found: Forecast) -> dict[str, Any]:
-    """Levels, packings, amplifications, and how much each doubt moves the answer, as the file holds them."""
-    recipe = found.recipe
-    doubts = {
-        WORDS[name]: {
+    """Volumes, amplifications, and what each input moves, as the file holds them."""
+    recipe, binder = found.recipe, np.array(SHOWN)
+    moved = {
+        INPUTS[name]: {
             "E_percent": 100.0 * float(np.sqrt((change.real**2).mean())),
             "phase_deg": float(np.degrees(np.sqrt((change.imag**2).mean()))),
         }
-        for name, change in found.deviation.items()
+        for name, change in found.moved.items()
     }
-    levels, modulus, shown = [], np.array(SHOWN), [f"{size / 1e6:g} MPa" for size in SHOWN]
-    for result in found.levels:
-        after = recipe.aggregate.modulus * result.map(modulus / recipe.aggregate.modulus)
-        levels.append(
-            {
-                "name": result.level.name,
-                "grains_mm": [1e3 * result.level.smallest, 1e3 * result.level.largest],
-                "volume_fraction": result.level.fraction,
-                "grains_touch": bool(result.level.touching and found.settings.touching),
-                "solid_fraction_of_packing": result.packing.solid_fraction,
-                "coordination_of_packing": result.packing.coordination,
-                "grains_in_network": result.grains,
-                "matrix_bulk_GPa": 1e-9 * result.matrix_bulk,
-                "amplification": dict(zip(shown, (after / modulus).tolist(), strict=True)),
-                "map_error": result.map.error,
-            }
-        )
-        modulus = after
+    amplified = {name: amplification(found, name, binder).round(1).tolist() for name in PARTS}
     return {
-        "format": 1,
+        "format": 2,
         "kind": "forecast",
         "recipe": recipe.name,
         "source": recipe.source,
-        "temperature_stated": recipe.temperature_stated,
-        "aggregate_volume_percent": 100.0 * recipe.aggregate_fraction * (1.0 - recipe.voids),
-        "binder_volume_percent": 100.0 * (1.0 - recipe.aggregate_fraction) * (1.0 - recipe.voids),
-        "air_voids_percent": 100.0 * recipe.voids,
-        "film_thickness_um": 1e6 * film_thickness(recipe),
-        "relaxed_modulus_MPa": 1e-6 * recipe.aggregate.modulus * found.levels[-1].map.constant,
-        "levels": levels,
-        "doubts": doubts,
-        "caution": found.caution,
-        "largest_doubt": max(doubts, key=lambda name: doubts[name]["E_percent"]),
+        "caution": recipe.caveat,
+        "volume_percent": {name: 100.0 * share for name, share in composition(recipe).items()},
+        "relaxed_modulus_MPa": 1e-6 * float(modulus_of_mix(recipe, np.array([1e-3]), found.settings)[0].real),
+        "amplification_of_binder_at_MPa": [1e-6 * size for size in SHOWN],
+        "amplification": amplified,
+        "inputs": moved,
+        "largest": max(moved, key=lambda name: moved[name]["E_percent"]),
         "provenance": provenance(),
     }
+
+
+def amplification(found: Forecast, part: str, binder: np.ndarray) -> np.ndarray:
+    """|E*| of the mix over that of its binder (n,) [Pa], by one of PARTS."""
+    settings = replace(found.settings, **PARTS[part])
+    return np.abs(modulus_of_mix(found.recipe, binder, settings) / binder)
+
+
+def composition(recipe: Recipe) -> dict[str, float]:
+    """Shares of the volume of the mix."""
+    stone = (1.0 - recipe.voids) * recipe.aggregate_fraction
+    filler, sand = (float(recipe.grading.passing_at(size)) for size in (FILLER, 2e-3))
+    return {
+        "stones": stone * (1.0 - sand),
+        "sand": stone * (sand - filler),
+        "filler": stone * filler,
+        "binder": binder_volume(recipe),
+        "air": recipe.voids,
+    }
+
+
+def names(found: Forecast) -> list[str]:
+    """Files of a forecast; of a binder at one temperature nothing is known for a design."""
+    return [TABLE, RIVAL_TABLE, *([DESIGN] if found.recipe.shifted else []), LAW, SUMMARY]
 
 
 def write(found: Forecast, folder: str | Path) -> list[str]:
@@ -149,6 +179,8 @@ def write(found: Forecast, folder: str | Path) -> list[str]:
     folder = Path(folder)
     write_table(folder / TABLE, points(found))
     write_table(folder / RIVAL_TABLE, rival_points(found))
+    if found.recipe.shifted:
+        write_table(folder / DESIGN, design_points(found))
     write_json(folder / LAW, law_of_mix(found))
     write_json(folder / SUMMARY, summary(found))
-    return [TABLE, RIVAL_TABLE, LAW, SUMMARY]
+    return names(found)

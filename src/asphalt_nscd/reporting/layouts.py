@@ -125,6 +125,7 @@ _MODELS = {
     "differential": "differential scheme",
     "witczak_its_own_binder": "Witczak, its own binder",
 }
+_SHIFTED = {"forecast_shifted": "forecast, time shifted", "hirsch_shifted": "Hirsch, time shifted"}
 BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
     "verification": [Layout({name: name for name in ("theme", "passed")})],
     "faults": [Layout({name: name for name in ("kind", "faults", "passed")})],
@@ -258,12 +259,6 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
                 "factor_all": "factor of modulus",
                 "phase_all_deg": "phase, °",
             },
-            but={
-                # What the forecast loses without each part is in overall.csv.
-                "forecast": [
-                    f"without {part}" for part in ("squeezed films", "grains that touch", "dry skeleton")
-                ]
-            },
             figures=3,
         ),
     ],
@@ -312,7 +307,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             # Each temperature is below, and its phases are in blind_overall.csv.
             where={"temperature_C": ("4.4 to 54.4",)},
             figures=3,
-            shorter=_MODELS,
+            shorter=_MODELS | _SHIFTED,
         ),
         Crossed(
             "temperature_C",
@@ -323,17 +318,20 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             "Factor of modulus at each temperature:",
         ),
     ],
-    "wrong_recipes": [
+    "forecast_tried": [
         Layout(
             {
-                "wrong": "input",
-                "size": "off by",
-                "named": "named",
-                "among_several": "in a group",
-                "named_wrongly": "wrong",
+                "contacts": "contacts",
+                "gap_nm": "gap, nm",
+                "factor_all": "factor",
+                "phase_all_deg": "phase, °",
+                "factor_even": "half of the mixes",
+                "phase_even_deg": "phase, ° ",
+                "factor_odd": "the other half",
+                "phase_odd_deg": "phase, °  ",
             },
-            # What the differential scheme says is a sentence of docs/forecast.md.
-            where={"limits": (3,), "densities": ("yes",), "truth": ("hirsch",)},
+            where={"gap_nm": (1,)},
+            figures=3,
         )
     ],
     "growth": [

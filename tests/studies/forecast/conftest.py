@@ -1,3 +1,3 @@
-"""The recipe and packings of the tests of the forecast."""
+"""The recipe of the tests of the forecast."""
 
-from forecasting.conftest import content, networks, packing, recipe  # noqa: F401
+from forecasting.conftest import content, recipe  # noqa: F401

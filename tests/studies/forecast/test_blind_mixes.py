@@ -1,22 +1,12 @@
 """The forecast of mixes that it has not seen: what stands for their binder and grading, and how errors are counted."""
 
-from dataclasses import replace
-
 import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.forecasting.forecast import Settings, modulus_of
-from studies.forecast.blind import (
-    AtPoints,
-    crossover_of,
-    errors,
-    forecast_all,
-    grading_of,
-    recipe_of_row,
-    shear_modulus,
-)
-from studies.forecast.differential import differential
+from asphalt_nscd.forecasting.binders import crossover_of, shear_modulus
+from asphalt_nscd.forecasting.scheme import modulus_of_mix
+from studies.forecast.blind import errors, forecast_all, grading_of, recipe_of_row, shifted, try_numbers
 
 ROW = {
     "mix": 7,
@@ -46,20 +36,6 @@ def points():
     )
 
 
-def test_a_binder_that_crosses_over_is_half_way_between_glass_and_flow():
-    at = shear_modulus(np.array([3.0]), 3.0)
-    assert np.degrees(np.angle(at)) == pytest.approx(45.0)
-    assert np.abs(at) == pytest.approx(1e9 * 10**-1.8)  # the rheological index is the decades below the glass
-    assert shear_modulus(np.array([1e-20]), 3.0) == pytest.approx(1e9 / 3.0 * 1e-20 * 1j, rel=0.02)
-
-
-@pytest.mark.parametrize("viscosity", [1e2, 1e5, 7e9])
-def test_a_binder_has_the_viscosity_of_its_grade(viscosity):
-    at = shear_modulus(np.array([10.0]), crossover_of(viscosity))
-    found = np.abs(at) / 10.0 * (1.0 / np.sin(np.angle(at))) ** 4.8628
-    assert found == pytest.approx(viscosity, rel=1e-6)
-
-
 def test_a_grading_goes_through_its_sieves_and_between_them_straight_over_logarithms():
     passing = grading_of(ROW)
     assert [passing[size] for size in (0.075, 4.75, 9.5, 19.0)] == [5.0, 67.0, 84.0, 100.0]
@@ -79,27 +55,32 @@ def test_effective_binder_is_the_binder(content, points):
     )
 
 
-def test_a_mix_drawn_from_the_forecast_is_met_and_a_refused_one_is_named(content, points, networks):
+def test_a_mix_drawn_from_the_forecast_is_met_and_a_refused_one_is_named(content, points):
     recipe = recipe_of_row(ROW, points, content)
-    truth = modulus_of(networks.chain(recipe, Settings(), 1), recipe.aggregate, recipe.binder_modulus())
+    truth = modulus_of_mix(recipe, recipe.binder_modulus())
     drawn = points.assign(E_MPa=3e-6 * np.abs(truth), phase_deg=np.degrees(np.angle(truth)) + 3.0)
-    lean = {**ROW, "mix": 8, "effective_binder_percent_by_volume": 2.0}
+    lean = {**ROW, "mix": 8, "effective_binder_percent_by_volume": 1.0}
     moduli = pd.concat([drawn, drawn.assign(mix=8)])
-    table, mixes = forecast_all(pd.DataFrame([ROW, lean]), moduli, {7: "abc"}, content, networks)
+    table, mixes = forecast_all(pd.DataFrame([ROW, lean]), moduli, {7: "abc"}, content)
     found = errors(table).set_index("model").loc["forecast"]
     assert (found["factor"], found["bias"], found["phase_deg"]) == pytest.approx((3.0, 1 / 3, 3.0))
     assert (found["E_in_band"], found["phase_in_band"]) == (0.0, 1.0)
     assert mixes["mix"].tolist() == [7, 8] and mixes["version"][0] == "abc" and mixes["version"][1] != ""
     assert "aggregate fills" in mixes["refused"][1] and not mixes["refused"][0]
     assert mixes["factor_forecast"][0] == pytest.approx(3.0) and set(table["mix"]) == {7}
+    tried = try_numbers(pd.DataFrame([ROW, {**ROW, "mix": 8}]), moduli, content)
+    row = tried[(tried.contacts == 1.0) & (np.isclose(tried.gap_nm, 1.0))].iloc[0]
+    assert (row.factor_all, row.factor_odd, row.phase_even_deg) == pytest.approx((3.0, 3.0, 3.0), rel=1e-6)
 
 
-def test_the_differential_scheme_of_few_grains_is_einsteins(recipe):
-    """1 + 2.5 phi in an incompressible matrix; with Rigden's voids the filler counts for more."""
-    few = replace(recipe, voids=0.0, binder_share=0.98, binder=AtPoints(np.array([1e3 + 0j])))
-    share = few.aggregate_fraction
-    found = differential(few, 400)[0] / 1e3
-    assert found.real == pytest.approx((1.0 - share) ** -2.5, rel=2e-3)
-    filler = share * float(few.grading.passing_at(0.063e-3))
-    more = differential(few, 400, rigden=0.35)[0] / 1e3
-    assert more.real / found.real == pytest.approx(1.0 + 2.5 * filler * (1.0 / 0.65 - 1.0), rel=1e-3)
+def test_a_shift_of_time_is_found(content, points):
+    """A mix whose binder is a decade stiffer than its grade is met with that shift."""
+    recipe = recipe_of_row(ROW, points, content)
+    stiff = recipe_of_row(ROW, points.assign(binder_viscosity_Pa_s=[1e9, 1.2e5]), content)
+
+    def made(mix):
+        return modulus_of_mix(mix, mix.binder_modulus())
+
+    drawn = points.assign(E_MPa=1e-6 * np.abs(made(stiff)))
+    off = np.log(np.abs(shifted(recipe, drawn, made)) / 1e6 / drawn["E_MPa"])
+    assert np.abs(off).max() < 0.3 < np.abs(np.log(np.abs(made(recipe) / made(stiff)))).max()

@@ -1,7 +1,6 @@
 """The forecast held against measurements: mixes drawn from the forecast itself are met, and one fault is found."""
 
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -9,9 +8,8 @@ import pytest
 from scipy.stats import f
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecasting.forecast import Settings, forecast, modulus_of
 from asphalt_nscd.forecasting.recipe import read_recipe
-from studies.forecast.mixes import bands, best_map, binder_shift, decades_slower, measured_map, read_pairs
+from studies.forecast.mixes import best_map, compare, decades_slower, measured_map, overall, read_pairs
 from studies.forecast.voids import compare_voids
 
 
@@ -72,48 +70,21 @@ def test_no_map_fits_warm_and_hot_mixes(pairs):
     assert worst("H", "W") > 0.5
 
 
-@pytest.mark.parametrize("decades", [-0.7, 0.4])
-def test_a_binder_of_another_temperature_is_found(pairs, networks, decades):
-    """A mix drawn from the forecast with a binder that is shifted."""
-    pair = pairs[0]
-    levels = networks.chain(pair.recipe, Settings(), 1)
-
-    class Drawn(type(pair)):
-        measured = modulus_of(levels, pair.recipe.aggregate, pair.binder(decades))
-
-    drawn = Drawn(pair.name, pair.recipe, pair.mix)
-    made = partial(modulus_of, levels, pair.recipe.aggregate)
-    assert binder_shift(drawn, made) == pytest.approx(decades, abs=1e-3)
-
-
 def test_the_map_of_a_mix_gives_that_mix(pairs):
     own = measured_map(pairs[0])
     assert np.abs(np.log(own(pairs[0].binder()) / pairs[0].measured)).max() < 1e-3
-    assert binder_shift(pairs[0], own) == pytest.approx(0.0, abs=1e-3)
     softer = (np.abs(own(pair.binder()) / pair.measured).max() for pair in pairs[3:])
     assert max(softer) == pytest.approx(4.8, abs=0.05)  # as docs/forecast.md tells it
 
 
-def test_a_band_takes_the_models_error_from_the_other_mixes(pairs, networks):
-    """Mixes that the forecast misses by known factors: each is judged by what the others missed."""
-    first = forecast(pairs[0].recipe, networks, seeds=(1,))
-    factors = (1.0, 1.3, 1.3, 3.0)
-
-    class Drawn(type(pairs[0])):
-        measured = None
-
-    drawn = []
-    for number, factor in enumerate(factors):
-        one = Drawn(str(number), pairs[0].recipe, pairs[0].mix)
-        object.__setattr__(one, "measured", first.modulus * factor)
-        drawn.append(one)
-    found = bands(drawn, networks).set_index("mix")
-    others = [
-        np.sqrt(np.mean([np.log(f) ** 2 for k, f in enumerate(factors) if k != own])) for own in range(4)
-    ]
-    assert found["deviation_E"].tolist() == pytest.approx(others)
-    assert found["E_in_band"].tolist() == [1.0, 1.0, 1.0, 0.0]
-    assert found["phase_in_band"].tolist() == [1.0] * 4 and found["deviation_phase_deg"].max() < 1e-9
+def test_errors_are_those_of_the_points(pairs):
+    errors, points = compare(pairs[:1] + pairs[3:4])
+    table = overall(errors).set_index("forecast")
+    own = points[(points.forecast == "forecast") & (points.mix == "W0")]
+    off = np.log(own.E_MPa / own.measured_E_MPa)
+    assert table.factor_W0["forecast"] == pytest.approx(np.exp(np.sqrt((off**2).mean())))
+    assert table.factor_H0[table.index.str.startswith("no recipe")].iloc[0] == pytest.approx(1.0, abs=1e-4)
+    assert np.isnan(table.phase_all_deg["witczak"]) and table.parameters.max() == 35
 
 
 def campaign(folder, slope):
@@ -140,9 +111,9 @@ def campaign(folder, slope):
     pd.DataFrame(rows).to_csv(folder / "volumetrics.csv", index=False)
 
 
-def test_cost_of_air_is_measured_within_mixes(tmp_path, networks, recipe):
+def test_cost_of_air_is_measured_within_mixes(tmp_path, recipe):
     campaign(tmp_path, -6.0)
-    table = compare_voids(tmp_path, replace(recipe, voids=0.07), networks)
+    table = compare_voids(tmp_path, replace(recipe, voids=0.07))
     one, pooled = table.itertuples()
     for row in (one, pooled):
         assert row.measured_percent == pytest.approx(-6.0, abs=1e-9)
@@ -151,7 +122,7 @@ def test_cost_of_air_is_measured_within_mixes(tmp_path, networks, recipe):
     assert (one.temperature_C, one.frequency_Hz) == (20, 1) and np.isnan(pooled.temperature_C)
 
 
-def test_pooled_scatter_is_that_of_specimens(tmp_path, networks, recipe):
+def test_pooled_scatter_is_that_of_specimens(tmp_path, recipe):
     """A specimen that is stiff in every condition counts once: more conditions make no error smaller."""
     campaign(tmp_path, -6.0)
     table = pd.read_csv(tmp_path / "M2_RH.csv")
@@ -162,7 +133,7 @@ def test_pooled_scatter_is_that_of_specimens(tmp_path, networks, recipe):
             path = tmp_path / f"M{number}_RH.csv"
             first = table if number == 2 else pd.read_csv(path).query("frequency_Hz == 1")
             pd.concat([first.assign(frequency_Hz=10**k) for k in range(conditions)]).to_csv(path, index=False)
-        errors.append(compare_voids(tmp_path, recipe, networks).iloc[-1])
+        errors.append(compare_voids(tmp_path, recipe).iloc[-1])
     assert errors[0].specimens == errors[1].specimens == 12
     assert errors[1].standard_error_percent == pytest.approx(errors[0].standard_error_percent, rel=1e-9)
     # the one deviation: -ln(1.1) a / sum of a^2 in the slope
@@ -174,11 +145,11 @@ def test_pooled_scatter_is_that_of_specimens(tmp_path, networks, recipe):
     assert errors[0].probability == pytest.approx(f.sf(off**2, 1, 7), rel=1e-9)
 
 
-def test_a_specimen_without_air_voids_is_named(tmp_path, networks, recipe):
+def test_a_specimen_without_air_voids_is_named(tmp_path, recipe):
     campaign(tmp_path, -6.0)
     table = pd.read_csv(tmp_path / "volumetrics.csv")
     table[~((table["mix"] == "M1 RH") & (table["specimen_id"] == "B"))].to_csv(
         tmp_path / "volumetrics.csv", index=False
     )
     with pytest.raises(InputError, match="no row for specimen B of M1_RH"):
-        compare_voids(tmp_path, recipe, networks)
+        compare_voids(tmp_path, recipe)

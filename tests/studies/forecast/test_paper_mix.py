@@ -25,12 +25,11 @@ def test_outside_the_nomograph_nothing_is_known():
 
 
 @pytest.mark.filterwarnings("error")  # where the nomograph knows no stiffness, nothing is computed
-def test_the_papers_mix(recipe, networks):
+def test_the_papers_mix(recipe):
     found = compare_paper(
         "data/paper/table1_grading.csv",
         "data/paper/table3_burgers.csv",
         recipe,
-        networks,
     )
     assert set(found["temperature_C"]) == {10.0, 15.0, 20.0, 30.0} and set(found["frequency_Hz"]) == {
         3,

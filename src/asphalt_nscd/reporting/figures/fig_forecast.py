@@ -10,13 +10,12 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.reporting.figures import style
 
-FORECAST = "+ air voids: the forecast"
+FORECAST = "forecast"
 SHOWN: dict[str, tuple[str, str, Any, float]] = {
-    FORECAST: ("forecast, nothing fitted", style.BLUE, "-", 1.6),
+    FORECAST: ("forecast", style.BLUE, "-", 1.6),
     "hirsch": ("Hirsch", style.GREY, (0, (5, 1.5)), 0.9),
-    "mori_tanaka": ("Mori–Tanaka", style.GREY, (0, (1.2, 1.2)), 0.9),
+    "differential": ("volumes alone", style.GREY, (0, (1.2, 1.2)), 0.9),
 }
-SHIFTED = "set on W0"  # in the name of the forecast whose warm mixes have a binder of their own
 
 
 @style.journal
@@ -25,10 +24,6 @@ def draw(points: list[Path]) -> Figure:
     frame = pd.read_csv(points[0])
     mixes = list(dict.fromkeys(frame["mix"]))
     figure, axes = style.new_figure(style.WIDE, 88.0, rows=2, columns=len(mixes), sharex=True, sharey="row")
-    shifted = next((name for name in dict.fromkeys(frame["forecast"]) if SHIFTED in name), None)
-    shown = dict(SHOWN)
-    if shifted is not None:
-        shown[shifted] = ("2 inputs set on H0, 1 on W0", style.INK, (0, (5, 1.5, 1.2, 1.5)), 0.9)
     for (norm, phase), mix in zip(axes.T, mixes, strict=True):
         of_mix = frame[frame["mix"] == mix]
         measured = of_mix[of_mix["forecast"] == FORECAST]
@@ -37,7 +32,7 @@ def draw(points: list[Path]) -> Figure:
             measured["omega_rad_s"], measured["measured_E_MPa"], **point, label="measured (published law)"
         )
         phase.plot(measured["omega_rad_s"], measured["measured_phase_deg"], **point)
-        for name, (label, colour, dash, width) in shown.items():
+        for name, (label, colour, dash, width) in SHOWN.items():
             rows = of_mix[of_mix["forecast"] == name]
             norm.plot(rows["omega_rad_s"], rows["E_MPa"], color=colour, ls=dash, lw=width, label=label)
             phase.plot(rows["omega_rad_s"], rows["phase_deg"], color=colour, ls=dash, lw=width)

@@ -1,0 +1,241 @@
+"""The binder of a recipe: a law of its Young's modulus from what people know of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+from scipy.optimize import brentq
+
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.forecasting.rheometer import read_rheometer
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
+from asphalt_nscd.rheology.shift import WLF, ZERO_CELSIUS, Arrhenius
+from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
+
+UNSTATED = 15.0  # degC, what an unstated reference temperature is called
+GLASSY, RHEOLOGICAL_INDEX = 1e9, 1.8  # Pa; Christensen & Anderson (1992), middle of paving grades
+SOFTENED = 1300.0  # Pa s: viscosity at the softening point (MEPDG)
+LARGEST_MISFIT = 1.0  # rms of ln G* of a law about its table: more is no binder
+POOR_MISFIT = 0.15  # more than that is told
+LAW_KEYS = {  # of a recipe: our name and unit
+    "E00_MPa": ("static_modulus", 1e6),
+    "E0_MPa": ("glassy_modulus", 1e6),
+    "delta": ("delta", 1.0),
+    "k": ("k", 1.0),
+    "h": ("h", 1.0),
+    "beta": ("beta", 1.0),
+    "tau_s": ("tau", 1.0),
+}
+# A and VTS of RTFO-aged binders of a performance grade, by its high temperature [degC]: NCHRP 1-37A, Part 2, chapter 2
+# (2004), defaults of the MEPDG.
+GRADES = {
+    46: {-34: (11.504, -3.901), -40: (10.101, -3.393), -46: (8.755, -2.905)},
+    52: {-10: (13.386, -4.570), -16: (13.305, -4.541), -22: (12.755, -4.342), -28: (11.840, -4.012),
+         -34: (10.707, -3.602), -40: (9.496, -3.164), -46: (8.310, -2.736)},
+    58: {-10: (12.316, -4.172), -16: (12.248, -4.147), -22: (11.787, -3.981), -28: (11.010, -3.701),
+         -34: (10.035, -3.350), -40: (8.976, -2.968)},
+    64: {-10: (11.432, -3.842), -16: (11.375, -3.822), -22: (10.980, -3.680), -28: (10.312, -3.440),
+         -34: (9.461, -3.134), -40: (8.524, -2.798)},
+    70: {-10: (10.690, -3.566), -16: (10.641, -3.548), -22: (10.299, -3.426), -28: (9.715, -3.217),
+         -34: (8.965, -2.948), -40: (8.129, -2.648)},
+    76: {-10: (10.059, -3.331), -16: (10.015, -3.315), -22: (9.715, -3.208), -28: (9.200, -3.024),
+         -34: (8.532, -2.785)},
+    82: {-10: (9.514, -3.128), -16: (9.475, -3.114), -22: (9.209, -3.019), -28: (8.750, -2.856),
+         -34: (8.151, -2.642)},
+}  # fmt: skip
+
+
+class Shift(Protocol):
+    """How frequency and temperature stand for each other."""
+
+    @property
+    def reference_temperature(self) -> float:
+        """At which the factor is one [degC]."""
+
+    def factor(self, temperature: np.ndarray) -> np.ndarray:
+        """Reduced frequency over frequency at temperatures [degC]."""
+
+
+class BinderLaw(Protocol):
+    """E* of a binder at all temperatures and frequencies, or at one temperature."""
+
+    @property
+    def shift(self) -> Shift:
+        """Of its frequencies."""
+
+    def complex_modulus(self, omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+        """E* [Pa] at angular frequencies [rad/s] and temperatures [degC], broadcast together."""
+
+
+@dataclass(frozen=True)
+class Binder:
+    """A law, whether it holds at all temperatures, whether it states one, and what a reader of it must know.
+
+    `measured` [degC] are the lowest and highest temperature of a table; None where there is none.
+    """
+
+    law: BinderLaw
+    shifted: bool
+    temperature_stated: bool = True
+    caution: str = ""
+    measured: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class ViscosityShift:
+    """Shift of a binder whose viscosity [cP] at T [deg Rankine] is log10 log10 = A + VTS log10 T (ASTM D2493)."""
+
+    a: float
+    vts: float
+    reference_temperature: float = UNSTATED
+
+    def crossover(self, temperature: np.ndarray) -> np.ndarray:
+        """Angular frequency [rad/s] at which the phase is 45 degrees, at temperatures [degC]."""
+        at, place = np.unique(np.asarray(temperature, float), return_inverse=True)
+        return np.array([crossover_of(self.viscosity(t)) for t in at])[place].reshape(np.shape(temperature))
+
+    def viscosity(self, temperature: float) -> float:
+        """In Pa s, at a temperature [degC]."""
+        rankine = 1.8 * (temperature + ZERO_CELSIUS)
+        return float(1e-3 * 10.0**10.0 ** (self.a + self.vts * np.log10(rankine)))
+
+    def factor(self, temperature: np.ndarray) -> np.ndarray:
+        """Reduced frequency over frequency at temperatures [degC]."""
+        reference = self.crossover(np.array([self.reference_temperature]))[0]
+        return reference / self.crossover(temperature)
+
+
+@dataclass(frozen=True)
+class ViscosityLaw:
+    """E* of a binder known by its viscosity: Christensen & Anderson (1992), about three times G*."""
+
+    shift: ViscosityShift
+
+    def complex_modulus(self, omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+        """E* [Pa] at angular frequencies [rad/s] and temperatures [degC], broadcast together."""
+        return 3.0 * shear_modulus(np.asarray(omega, float), self.shift.crossover(temperature))
+
+
+@dataclass(frozen=True)
+class Blend:
+    """Two binders, `share` of the second: logarithms of the modulus mix by volume (Arrhenius' rule)."""
+
+    first: BinderLaw
+    second: BinderLaw
+    share: float
+
+    @property
+    def shift(self) -> Shift:
+        """That of the first binder."""
+        return self.first.shift
+
+    def complex_modulus(self, omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+        """E* [Pa] at angular frequencies [rad/s] and temperatures [degC], broadcast together."""
+        first, second = (law.complex_modulus(omega, temperature) for law in (self.first, self.second))
+        return first ** (1.0 - self.share) * second**self.share
+
+
+def shear_modulus(omega: np.ndarray, crossover: np.ndarray | float) -> np.ndarray:
+    """G* (n,) [Pa] of a binder (Christensen & Anderson 1992) that crosses over at an angular frequency [rad/s]."""
+    power = np.log10(2.0) / RHEOLOGICAL_INDEX
+    size = GLASSY * (1.0 + (crossover / omega) ** power) ** (-1.0 / power)
+    return size * np.exp(0.5j * np.pi / (1.0 + (omega / crossover) ** power))
+
+
+def crossover_of(viscosity: float) -> float:
+    """Angular frequency [rad/s] of the binder whose viscosity [Pa s] is |G*| / 10 (1 / sin delta)^4.8628 at 10 rad/s.
+
+    So the MEPDG (2004) makes the viscosity of a grade from its tests by a rheometer.
+    """
+
+    def off(log: float) -> float:
+        at = shear_modulus(np.array(10.0), 10.0**log)
+        return float(np.log(np.abs(at) / 10.0 * np.sin(np.angle(at)) ** -4.8628 / viscosity))
+
+    return float(10.0 ** brentq(off, -20.0, 20.0))
+
+
+def read_binder(content: Mapping[str, Any], path: str | Path) -> Binder:
+    """The binder of a recipe, in the form that its keys tell; `path` is the recipe's."""
+    if "table" in content:
+        return _measured(Path(path).parent / content["table"], content.get("poisson", 0.5))
+    if "grade" in content:
+        return _viscous(*_of_grade(content["grade"], path))
+    if "A" in content:
+        return _viscous(content["A"], content["VTS"])
+    if "penetration_dmm" in content:
+        return _viscous(*_of_penetration(content, path))
+    values = {name: scale * content[key] for key, (name, scale) in LAW_KEYS.items()}
+    refusal = TwoS2P1D.refusal(values)
+    if refusal:
+        raise InputError(f"{path}: binder: {refusal}; correct it.")
+    law = TwoS2P1D(**values, shift=_shift(content))
+    return Binder(law, "shift" in content, "reference_temperature_C" in content)
+
+
+def _viscous(a: float, vts: float) -> Binder:
+    return Binder(ViscosityLaw(ViscosityShift(a, vts)), shifted=True)
+
+
+def _of_grade(grade: str, path: str | Path) -> tuple[float, float]:
+    """Usual A and VTS of a performance grade, as "PG 64-22"."""
+    high, _, low = grade.upper().removeprefix("PG").strip().partition("-")
+    try:
+        return GRADES[int(high)][-int(low)]
+    except (KeyError, ValueError):
+        known = ", ".join(f"{h}{min(lows, key=abs)} to {h}{max(lows, key=abs)}" for h, lows in GRADES.items())
+        raise InputError(
+            f"{path}: binder.grade: no usual viscosity of {grade!r} is known; give one of PG {known} in steps of 6, "
+            f"or A and VTS."
+        ) from None
+
+
+def _of_penetration(content: Mapping[str, float], path: str | Path) -> tuple[float, float]:
+    """A and VTS from penetration at 25 degC and softening point, by the MEPDG's viscosities at both."""
+    log = float(np.log10(content["penetration_dmm"]))
+    viscosity = 0.1 * 10.0 ** (10.5012 - 2.2601 * log + 0.00389 * log**2)  # Pa s; the MEPDG has poises
+    soft = content["softening_point_C"]
+    if soft <= 30.0:
+        raise InputError(
+            f"{path}: binder.softening_point_C: {soft:g} °C; give that of ring and ball, above 30."
+        )
+    temperature = np.log10(1.8 * (np.array([25.0, soft]) + ZERO_CELSIUS))
+    known = np.log10(np.log10(1e3 * np.array([viscosity, SOFTENED])))
+    vts = float(np.diff(known)[0] / np.diff(temperature)[0])
+    if vts >= 0.0:
+        raise InputError(
+            f"{path}: binder: at a penetration of {content['penetration_dmm']:g} it is soft at 25 °C already, so "
+            f"softening_point_C is no {soft:g}; correct one of them."
+        )
+    return float(known[0] - vts * temperature[0]), vts
+
+
+def _shift(content: Mapping[str, Any]) -> WLF | Arrhenius:
+    reference = content.get("reference_temperature_C", UNSTATED)
+    of = content.get("shift", {"activation_energy_J_mol": 150e3})  # without one no other temperature is asked
+    if "wlf_C1" in of:
+        return WLF(of["wlf_C1"], of["wlf_C2_K"], reference)
+    return Arrhenius(of["activation_energy_J_mol"], reference)
+
+
+def _measured(path: Path, poisson: float) -> Binder:
+    """2S2P1D law with a WLF shift of Young's modulus, E = 2 (1 + nu) G, fitted to the table of a rheometer."""
+    temperature, omega, shear = read_rheometer(path)
+    known = np.unique(temperature)
+    reference = float(known[known.size // 2])
+    try:
+        fit = fit_spectrum(omega, temperature, 2.0 * (1.0 + poisson) * shear, reference, Form())
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    miss = fit.rms_log_residual
+    if miss > LARGEST_MISFIT:
+        raise InputError(
+            f"{path}: no law of a binder comes nearer to modulus and phase than {100 * miss:.0f} %; check columns and "
+            f"units."
+        )
+    caution = f"The law of the binder misses its table by {100 * miss:.0f} %." if miss > POOR_MISFIT else ""
+    return Binder(fit.law, True, True, caution, (float(known[0]), float(known[-1])))

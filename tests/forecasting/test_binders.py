@@ -1,0 +1,67 @@
+"""Binders as people know them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from asphalt_nscd.forecasting.binders import GRADES, ViscosityShift, crossover_of, read_binder, shear_modulus
+
+OMEGA = 2 * np.pi * np.array([0.1, 10.0])
+
+
+def test_a_binder_that_crosses_over_is_half_way_between_glass_and_flow():
+    at = shear_modulus(np.array([3.0]), 3.0)
+    assert np.degrees(np.angle(at)) == pytest.approx(45.0)
+    assert np.abs(at) == pytest.approx(1e9 * 10**-1.8)  # the rheological index is the decades below the glass
+    assert shear_modulus(np.array([1e-20]), 3.0) == pytest.approx(1e9 / 3.0 * 1e-20 * 1j, rel=0.02)
+
+
+@pytest.mark.parametrize("viscosity", [1e2, 1e5, 7e9])
+def test_a_binder_has_the_viscosity_of_its_grade(viscosity):
+    at = shear_modulus(np.array([10.0]), crossover_of(viscosity))
+    found = np.abs(at) / 10.0 * (1.0 / np.sin(np.angle(at))) ** 4.8628
+    assert found == pytest.approx(viscosity, rel=1e-6)
+
+
+def test_a_grade_is_its_usual_a_and_vts():
+    """A point of data/mixes50: PG 58-28 at -10 degC has 6.64e9 Pa s."""
+    shift = ViscosityShift(*GRADES[58][-28])
+    assert shift.viscosity(-10.0) == pytest.approx(6.64e9, rel=0.01)
+    grade, known = read_binder({"grade": "PG 58-28"}, "r"), read_binder({"A": 11.010, "VTS": -3.701}, "r")
+    assert grade.law.complex_modulus(OMEGA, 20.0) == pytest.approx(known.law.complex_modulus(OMEGA, 20.0))
+
+
+def test_stiffer_grades_are_stiffer_where_they_are_named_for():
+    """At 40 degC by the high temperature, at -10 degC by the low one."""
+    hot = [
+        abs(read_binder({"grade": f"{high}-22"}, "r").law.complex_modulus(OMEGA, 40.0)[0])
+        for high in (52, 58, 64, 70)
+    ]
+    cold = [
+        abs(read_binder({"grade": f"64{low}"}, "r").law.complex_modulus(OMEGA, -10.0)[0])
+        for low in (-34, -28, -22, -16)
+    ]
+    assert (np.diff(hot) > 0).all() and (np.diff(cold) > 0).all()
+
+
+def test_penetration_and_softening_point_by_hand():
+    """50 dmm at 25 degC: 10^(10.5012 - 2.2601 log 50 + 0.00389 log^2 50) poises; 13 000 at the softening point."""
+    law = read_binder({"penetration_dmm": 50, "softening_point_C": 50}, "r").law
+    log = np.log10(50)
+    assert law.shift.viscosity(25.0) == pytest.approx(
+        0.1 * 10 ** (10.5012 - 2.2601 * log + 0.00389 * log**2), rel=1e-6
+    )
+    assert law.shift.viscosity(50.0) == pytest.approx(1300.0, rel=1e-6)
+
+
+def test_recycled_asphalt_stiffens_by_the_share_of_its_binder(content):
+    """20 % with 5 % of binder in a mix of 5.4 %: logarithms of the moduli mix 18.5 : 81.5."""
+    from asphalt_nscd.forecasting.recipe import recipe_of
+
+    content |= {"binder": {"grade": "58-28"}, "temperatures_C": [20], "frequencies_Hz": [10]}
+    del content["angular_frequencies_rad_s"]
+    old = {"percent_by_mass": 20, "binder_percent_by_mass": 5, "binder": {"grade": "82-16"}}
+    new, mixed = recipe_of(content).binder_modulus(), recipe_of(content | {"rap": old}).binder_modulus()
+    hard = recipe_of(content | {"binder": {"grade": "82-16"}}).binder_modulus()
+    assert np.log(mixed / new) == pytest.approx(np.log(hard / new) * 0.2 * 5 / 5.4)
