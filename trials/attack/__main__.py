@@ -106,5 +106,20 @@ def machines(number: int, folder: Path) -> None:
     write_table(folder / "machine_measured.csv", machines.measured())
 
 
+@main.command()
+@click.option("--folder", required=True, type=File)
+def nonlinear(folder: Path) -> None:
+    """What is said of mixes that are not linear, and of true offsets of the phase."""
+    import pandas as pd
+
+    from asphalt_nscd.files.store import write_table
+
+    from . import not_linear
+
+    rows = pd.DataFrame([not_linear.tried(*each) for each in not_linear.tables()])
+    write_table(folder / "nonlinear.csv", rows)
+    write_table(folder / "nonlinear_summary.csv", not_linear.summary(rows))
+
+
 if __name__ == "__main__":
     main()

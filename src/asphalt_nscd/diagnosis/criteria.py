@@ -44,6 +44,9 @@ ENOUGH = 6.0
 LEAST_ISOTHERMS = 4
 MANY_ISOTHERMS = 3  # at which errors of temperature speak for a shift of another form: drawn Kaelble shifts
 MOST_SPECIMENS = 0.5  # share of the specimens at which a fault of one specimen may be named
+# Phase [rad] by which a mix that is not linear may differ from a linear one nearly everywhere: of a tenth less |E*| at
+# the softest tests, the slope of ln|E*| alone asks for half a degree at all others.
+MIXES_TURN = float(np.radians(1.0))
 ABSORBED = 3e-3  # share of a direction's square that the law must leave for it to be seen at all
 # The same of a fault of one specimen and of a spring, which a fit decides: a law leaves 2e-4 of a spring.
 FOLLOWED = 1e-6

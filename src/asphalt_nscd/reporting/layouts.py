@@ -144,6 +144,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             }
         ),
     ],
+    "nonlinear": [Layout(_CRITERIA)],
     "machines": [Layout(_CRITERIA, where={"met": ("yes", "no")})],
     "machine_measured": [
         Layout(

@@ -167,6 +167,11 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         key = candidates[k].key
         if eligible[k] and (key in shortlist or len(shortlist) < REFITS):
             shortlist.setdefault(key, []).append(int(k))
+    # Of causes that look alike, each is tried in the place of the others, by its best form.
+    families = {candidates[group[0]].cause.family for group in shortlist.values()} - {""}
+    for k in np.argsort(-gains):
+        if candidates[k].cause.family in families:
+            shortlist.setdefault(candidates[k].key, [int(k)])
     # A discrepancy sized without an error of all phases may have taken it up whole.
     taken_up = {k for k, one in enumerate(candidates) if large and one.cause.stage == CHANNEL}
     for k in taken_up:
@@ -196,10 +201,11 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
             if not stands(state, after, taken, own):
                 continue
             odds[k] = log_odds(taken, state.plain.observed, gain, own.std_error * float(taken.typical[0]))
-            if z[k] > least:
-                refits.append((gain, k, after))
-    if not refits:
+            refits.append((gain, k, after))
+    if all(z[k] <= least for _, k, _ in refits):
         return None
+    sure = {candidates[k].cause.family for _, k, _ in refits if z[k] > least} - {""}
+    refits = [refit for refit in refits if z[refit[1]] > least or candidates[refit[1]].cause.family in sure]
     most = max(gain for gain, _, _ in refits)
     as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
     # Equals in gain are told apart by what is usual of them, and not by a trifle; one at its bound comes last.
