@@ -52,7 +52,7 @@ ROOT = (
 SOFT, STIFF = np.quantile(np.log(np.abs(E)), (0.02, 0.98))
 SOFTNESS = np.clip((STIFF - np.log(np.abs(E))) / (STIFF - SOFT), 0, 1)
 EFFECTS = {
-    "film_softening": (2.0, E * np.exp(SOFTNESS**2 * (2j * np.pi / 180 - 0.08))),
+    "film_softening": (2.0, E * np.exp(2j * np.pi / 180 * SOFTNESS**2)),
     "drifting_reading": (
         0.5,
         E * np.exp(0.5j * np.pi / 180 * np.interp(np.angle(E) / (np.pi / 2), SLOPES, READ_TOO_LARGE)),

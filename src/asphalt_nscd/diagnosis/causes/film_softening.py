@@ -7,23 +7,25 @@ import numpy as np
 from asphalt_nscd.diagnosis.causes._cause import EXCESS, MATERIAL, Cause, Complex, Expected, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
-# Of a power-law film whose clock runs faster under stress: |E*| falls by 5.5 % where the phase rises by 1.4 deg.
-LOSS = 0.04  # of ln|E*| per degree
 # Powers of the softness with which it may fade: a film's excess goes with the square of the slope of ln|E*|, that of a
 # skeleton is at the softest tests alone.
 EXPONENTS = 2.0, 0.5, 1.0, 4.0
 
 
 class FilmSoftening(Cause):
-    """Binder films flow faster the more they are strained: |E*| falls and the phase rises where the mix is soft."""
+    """Binder films flow faster the more they are strained: |E*| falls and the phase rises where the mix is soft.
+
+    |E*| that falls with the softness is another law, which every law follows, and so is the phase that goes with its
+    slope. What no law follows, and this is, are phases above that.
+    """
 
     name = "film_softening"
     stage = MATERIAL
     alters_tests = False
     family = EXCESS
-    parameters = (Parameter("phase_rise", "deg", 0.0, 15.0, 0.5),)
-    expected = Expected(0.15, 1.5)  # deg, at the softest test
-    plain = ("a softening of the binder films with strain", "(phase {} higher in the softest test)")
+    parameters = (Parameter("excess_phase", "deg", 0.0, 15.0, 0.5),)
+    expected = Expected(0.15, 1.5)  # deg: nine NCAT states have 2.0 at 40 degC
+    plain = ("a softening of the binder films with strain", "(phase {} above what |E*| requires in the softest test)")
     sentence = "the mix is not linear where it is soft: |E*| falls and the phase rises with the strain"
     confirmed_by = "the softest tests again at half the strain, and a test on metal"
 
@@ -39,9 +41,8 @@ class FilmSoftening(Cause):
         return observed.isotherms.size > 1
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
-        """E* exp(s^p (i a - LOSS a)) (n,) [Pa]: softness s from 0 to 1, exponent p, phase rise a; `values` (1,)."""
-        along = softness(observed) ** self.exponent
-        return modulus * np.exp(values[0] * along * (1j * np.radians(1.0) - LOSS))
+        """E* exp(i a s^p) (n,) [Pa], with softness s from 0 to 1; `values` (1,) is a [deg]."""
+        return modulus * np.exp(1j * np.radians(values[0]) * softness(observed) ** self.exponent)
 
 
 def softness(observed: Observations) -> Vector:
