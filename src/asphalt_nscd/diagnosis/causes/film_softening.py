@@ -25,7 +25,10 @@ class FilmSoftening(Cause):
     family = EXCESS
     parameters = (Parameter("excess_phase", "deg", 0.0, 15.0, 0.5),)
     expected = Expected(0.15, 1.5)  # deg: nine NCAT states have 2.0 at 40 degC
-    plain = ("a softening of the binder films with strain", "(phase {} above what |E*| requires in the softest test)")
+    plain = (
+        "a softening of the binder films with strain",
+        "(phase {} above what |E*| requires in the softest test)",
+    )
     sentence = "the mix is not linear where it is soft: |E*| falls and the phase rises with the strain"
     confirmed_by = "the softest tests again at half the strain, and a test on metal"
 
