@@ -80,8 +80,7 @@ def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
 
 
 def _without_one(model: Reduced, fitted: Fitted, whole: Vector, k: int, kind: str) -> float:
-    """Variance of an effect; the least without one isotherm or one specimen, which may be at fault, where there are
-    FEW others."""
+    """Variance of an effect; the least with one isotherm or specimen free, which may be at fault, of more than FEW."""
     columns = np.flatnonzero(model.processes.block == k)
     if kind not in OF_FEW or columns.size <= FEW:
         return float(whole[k])
