@@ -99,10 +99,10 @@ def campaigns(first: int, seed: int = SEED, tables: int = TABLES) -> Iterator[Ca
         number += 1
         if campaign.broken is None and len(campaign.isotherms) >= LEAST_ISOTHERMS:
             given += 1
-            yield _careful(campaign) if given % 2 else campaign
+            yield careful(campaign) if given % 2 else campaign
 
 
-def _careful(campaign: Campaign) -> Campaign:
+def careful(campaign: Campaign) -> Campaign:
     """With a third of the everyday errors."""
 
     def response(warming: Vector, tuning: Vector) -> Complex:

@@ -99,6 +99,10 @@ if ATTACK:
                     "inside_summary",
                     "nonlinear",
                     "nonlinear_summary",
+                    "power",
+                    "power_limits",
+                    "power_cases",
+                    "power_summary",
                 )
             ),
         ],
@@ -107,6 +111,8 @@ if ATTACK:
             "machines": "machines_summary.csv",
             "machine_measured": "machine_measured.csv",
             "nonlinear": "nonlinear_summary.csv",
+            "power": "power.csv",
+            "power_summary": "power_summary.csv",
         },
     )
 for name, told in PUBLISHED.items():
