@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from asphalt_nscd.diagnosis.screening import causality, excess_phase, suspects, 
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.screening.within_isotherm import LooPrediction
 from asphalt_nscd.diagnosis.search.doubts import Key
+from asphalt_nscd.diagnosis.search.hypotheses import Hypothesis, hypotheses
 from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.settings import Draws
 from asphalt_nscd.diagnosis.written import shown
@@ -74,6 +76,12 @@ class Diagnosis:
     def probability(self, rung: Rung) -> float:
         """Probability of a name as stated, calibrated on drawn tables: all that speaks for or against it counts."""
         return stated(rung.probability, self.established(rung), rung.candidate.key in self.doubts)
+
+    @cached_property
+    def hypotheses(self) -> list[Hypothesis]:
+        """Explanations that the table leaves open, the likeliest first; one alone where all that is named is sure."""
+        stated_of = {rung.candidate.key: self.probability(rung) for rung in self.ladder.rungs}
+        return hypotheses(self.ladder, stated_of)
 
     def taken_off(self, rung: Rung) -> bool:
         """Whether law.json is free of a cause, and the extended simulation holds it.
