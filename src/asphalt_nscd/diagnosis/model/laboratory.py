@@ -28,6 +28,7 @@ OF_FEW = (
     "specimen times",
 )  # of which a table holds so few that one at fault enlarges them
 FEW = 2
+CLOSE = 0.01  # change of the objective at which a fit of the law ends that sizes are estimated beside
 
 
 @dataclass(frozen=True)
@@ -41,6 +42,12 @@ class Laboratory:
         # A second specimen, of which a next test is, brings what a single one has not.
         roots = _roots(joint, at, mounting).items()
         return np.hstack([self.sizes.get(kind, LABORATORY[kind].size) * root for kind, root in roots])
+
+    def beside(self, joint: Joint, at: Fitted) -> Joint:
+        """The model whose noise is that of single tests, `joint`'s, and what the laboratory adds."""
+        factor = self.factor(joint, at, joint.noise.block)
+        noise = joint.noise.add_discrepancy(np.concatenate([factor.real, factor.imag]))
+        return Joint(joint.observed, joint.base, noise)
 
 
 def processes(joint: Joint, fitted: Fitted) -> tuple[Processes, tuple[str, ...]]:
@@ -107,10 +114,10 @@ def add_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | No
     free, beside = start.fit_spectrum(joint.observed, joint.noise, (*fitted.active, *shared))
     held = alone(free)
     found = estimate(held, held.linearise(beside.law, beside.scales, beside.active))
-    plain = alone(joint)
-    factor = found.factor(joint, fitted, plain.noise.block)
-    noise = plain.noise.add_discrepancy(np.concatenate([factor.real, factor.imag]))
-    return Joint(joint.observed, joint.base, noise), found
+    # A law that was fitted without them has bent to the temperatures: fitted beside them, it leaves them to the tests.
+    straight = found.beside(held, beside).fit(beside.law, beside.scales, beside.active, CLOSE)
+    found = estimate(held, held.linearise(straight.law, straight.scales, straight.active))
+    return found.beside(alone(joint), fitted), found
 
 
 def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, NDArray[np.complex128]]:
