@@ -8,10 +8,13 @@ from contents import SOUND, SURE
 
 from asphalt_nscd.bending.rig import KEYS
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes.drifting_reading import READ_TOO_LARGE, SLOPES
 from asphalt_nscd.diagnosis.model.bases import BurgersAtEach, FlexibleSpectrum
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.words import sentences
 from asphalt_nscd.measurements.twopoint import Geometry, complex_modulus, form_factor, mass_factor
+from asphalt_nscd.rheology.as_run import Programme, modulus_as_read
+from asphalt_nscd.rheology.chain import KelvinChain
 
 GEOMETRY = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
 GAMMA, MU = form_factor(GEOMETRY), mass_factor(GEOMETRY)
@@ -46,7 +49,14 @@ def reduced(stiffness):
 ROOT = (
     1j * OMEGA * 0.1 * np.exp(40e3 / 8.314462618 * (1 / (TABLE.temperature + 273.15) - 1 / 278.15))
 ) ** 0.5
+SOFT, STIFF = np.quantile(np.log(np.abs(E)), (0.02, 0.98))
+SOFTNESS = np.clip((STIFF - np.log(np.abs(E))) / (STIFF - SOFT), 0, 1)
 EFFECTS = {
+    "film_softening": (2.0, E * np.exp(2j * np.pi / 180 * SOFTNESS**2)),
+    "drifting_reading": (
+        0.5,
+        E * np.exp(0.5j * np.pi / 180 * np.interp(np.angle(E) / (np.pi / 2), SLOPES, READ_TOO_LARGE)),
+    ),
     "channel_delay": (2e-4, reduced(force(E) * np.exp(2e-4j * OMEGA))),
     "phase_offset": (2.0, reduced(force(E) * np.exp(1j * np.pi / 90))),
     "moving_mass": (0.1, reduced(force(E) - 0.1 * OMEGA**2)),
@@ -96,6 +106,19 @@ def test_rig_keys_and_parameters(cause):
     amplitude = cause.parameters[0]
     assert amplitude.low <= 0 < amplitude.typical < amplitude.high
     assert cause.sentence and cause.confirmed_by
+
+
+@pytest.mark.parametrize("exponent", [0.15, 0.25, 0.4])
+def test_a_drift_is_read_as_in_a_test_from_rest(exponent):
+    """By a chain of Kelvin elements whose creep is a power of time, loaded by a haversine."""
+    times = np.geomspace(1e-9, 1e9, 109)
+    compliances = times**exponent
+    chain = KelvinChain(1e30, np.inf, tuple(1 / compliances), tuple(times / compliances))
+    (as_read,) = modulus_as_read(chain, [1.0], Programme())
+    true = 1 / np.sum(compliances / (1 + 2j * np.pi * times))
+    slope = np.angle(true) / (np.pi / 2)
+    excess = np.degrees(np.angle(as_read / true))
+    assert np.interp(slope, SLOPES, READ_TOO_LARGE) == pytest.approx(excess, abs=0.03)
 
 
 def test_guide_friction_of_the_rig_has_the_loss_of_the_formula():

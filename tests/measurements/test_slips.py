@@ -7,6 +7,8 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.measurements.slips import slips, unit_in_question
+from asphalt_nscd.rheology.parabolic import HuetSayegh
+from asphalt_nscd.rheology.shift import WLF
 
 FREQUENCIES = np.array([0.1, 0.5, 1.0, 5.0, 10.0, 25.0])
 
@@ -26,6 +28,54 @@ def campaign(specimens=3):
     return table
 
 
+def bitumen(celsius=(-10.0, 0.0, 10.0, 20.0, 30.0), said=None):
+    """A law of Huet and Sayegh, three specimens with scatter; `said`: temperatures as the table has them."""
+    rng = np.random.default_rng(4)
+    law = HuetSayegh(80e6, 32e9, k=0.22, h=0.6, delta=2.3, tau=0.3, shift=WLF(18.0, 140.0, 15.0))
+    rows = [(name, t, f) for name in "ABC" for t in celsius for f in (1.0, 3.0, 10.0, 25.0)]
+    table = pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz"])
+    modulus = law.complex_modulus(
+        2.0 * np.pi * table["frequency_Hz"].to_numpy(), table["temperature_C"].to_numpy()
+    )
+    table["E_MPa"] = np.abs(modulus) * 1e-6 * np.exp(0.02 * rng.standard_normal(len(table)))
+    table["phase_deg"] = np.degrees(np.angle(modulus)) + 0.3 * rng.standard_normal(len(table))
+    return table.assign(temperature_C=table["temperature_C"].replace(said or {}))
+
+
+def at(celsius, column, of, table=None):
+    """The table with a column of an isotherm, or of all (None), replaced by a function of it."""
+    table = bitumen() if table is None else table
+    rows = table["temperature_C"] == celsius if celsius is not None else table["temperature_C"] > -99.0
+    return table.assign(**{column: table[column].where(~rows, of(table[column]))})
+
+
+@pytest.mark.parametrize(
+    "table, said",
+    [
+        (at(None, "phase_deg", lambda x: 90.0 - x), "look like 90 deg less the phase"),
+        (at(10.0, "phase_deg", lambda x: 90.0 - x), "the phases at 10 degC"),
+        (at(None, "E_MPa", lambda x: x / 6.895), "is the unit ksi"),
+        (at(None, "E_MPa", lambda x: x * 145.04), "is the unit psi"),
+        (at(10.0, "E_MPa", lambda x: x / 6.895), "at 10 degC |E*| is about 0.145 times"),
+        (at(30.0, "E_MPa", lambda x: x / 6.895), "degC |E*| is about 0.145 times"),
+        (at(0.0, "E_MPa", lambda x: x / 6.895), "as it would be in ksi"),
+        (at(20.0, "E_MPa", lambda x: x * 145.04), "at 20 degC |E*| is about 145 times"),
+        (bitumen(said={10.0: 50.0}), "was 50 degF, that is 10 degC, meant?"),
+        (bitumen(said={0.0: 32.0}), "was 32 degF, that is 0 degC, meant?"),
+        (bitumen((-20.0, 0.0, 10.0, 30.0), {-20.0: 20.0}), "was -20 degC meant?"),
+    ],
+)
+def test_slips_of_a_mix_are_told_by_name(table, said):
+    assert said in next(slips(table))
+
+
+@pytest.mark.parametrize(
+    "celsius", [(-10.0, 0.0, 10.0, 20.0, 30.0), (4.0, 20.0, 40.0), (-10.0, 4.0, 21.0, 37.0, 54.0)]
+)
+def test_a_mix_without_a_slip_has_none(celsius):
+    assert not list(slips(bitumen(celsius)))
+
+
 def test_a_right_table_has_none():
     assert not list(slips(campaign())) and not list(slips(campaign(1)))
 
@@ -42,7 +92,7 @@ def changed(rows, column, factor):
         (changed("specimen == 'B'", "E_MPa", 0.145), "at every condition |E*| of specimen B is 0.145"),
         (changed("specimen == 'C' and temperature_C == 21", "E_MPa", 0.145), "at 21 degC |E*| of specimen C"),
         (changed("specimen == 'A'", "E_MPa", 145.0), "as it would be in psi"),
-        (changed("temperature_C == 37", "E_MPa", 1e3), "as stiff at 37 degC as at -10 degC"),
+        (changed("temperature_C == 37", "E_MPa", 1e3), "as it would be in kPa"),
         (
             changed("specimen == 'A' and temperature_C == 4", "phase_deg", np.pi / 180),
             "of specimen A at 4 degC",

@@ -106,5 +106,38 @@ def machines(number: int, folder: Path) -> None:
     write_table(folder / "machine_measured.csv", machines.measured())
 
 
+@main.command()
+@click.option("--folder", required=True, type=File)
+def nonlinear(folder: Path) -> None:
+    """What is said of mixes that are not linear, and of true offsets of the phase."""
+    import pandas as pd
+
+    from asphalt_nscd.files.store import write_table
+
+    from . import not_linear
+
+    rows = pd.DataFrame([not_linear.tried(*each) for each in not_linear.tables()])
+    write_table(folder / "nonlinear.csv", rows)
+    write_table(folder / "nonlinear_summary.csv", not_linear.summary(rows))
+
+
+@main.command()
+@click.option("--folder", required=True, type=File)
+def power(folder: Path) -> None:
+    """Sizes that are named in half and in 19 of 20 tables of usual campaigns; two faults of a careful laboratory."""
+    import pandas as pd
+
+    from asphalt_nscd.files.store import write_table
+
+    from . import power
+
+    stated = power.limits()
+    rows = pd.DataFrame([row for number in range(power.TABLES) for row in power.tried(number)])
+    write_table(folder / "power_limits.csv", stated)
+    write_table(folder / "power.csv", power.sizes(stated))
+    write_table(folder / "power_cases.csv", rows)
+    write_table(folder / "power_summary.csv", power.summary(rows))
+
+
 if __name__ == "__main__":
     main()

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from .faults import CATALOGUE, UNITS, Fault, put
-from .laboratory import Campaign
+from .laboratory import AMPLITUDES_EVERY, ORDER_EVERY, Campaign
 
 SEED = 20270315  # set once the diagnosis was written
 TABLES, EMPTY = 24, 0  # campaigns with faults put in and without, if nothing else is asked for
@@ -34,6 +34,11 @@ LARGEST = {
     "damage": 0.7,
     "strain_softening": 0.7,
 }
+# Of so many campaigns one can have the cause.
+EVERY = {
+    "strain_softening": AMPLITUDES_EVERY, "damage": ORDER_EVERY, "loose_clamp": 2.0, "guide_friction": 2.0,
+    "moving_mass": 2.0,
+}  # fmt: skip
 LEAST_PHASE = 0.2  # deg
 LARGEST_PHASE = 10.0  # deg, of an offset
 ONE_SIGN = (
@@ -65,7 +70,7 @@ def cases(campaign: Campaign, number: int, limits: Limits, of_one_place: Limits)
     rng = np.random.default_rng([SEED, number, 1])
     real = "measured" in campaign.about
     pool = REAL_CAUSES if real else CATALOGUE
-    shown = [cause for cause in np.roll(pool, -number) if _drawable(campaign, cause, limits)]
+    shown = _balanced(campaign, pool, limits, np.random.default_rng([SEED, number, 3]))
     for cause in shown[: 2 if real else 1]:
         fault = _limit(campaign, str(cause), limits, rng)
         for ratio in REAL_RATIOS if real else RATIOS:
@@ -93,6 +98,17 @@ def at_three_limits(campaign: Campaign, cause: str, limits: Limits, rng: np.rand
     if not _drawable(campaign, cause, limits):
         return None
     return _scaled(_limit(campaign, cause, limits, rng), AT_ONCE)
+
+
+def _balanced(campaign: Campaign, pool: Sequence[str], limits: Limits, rng: np.random.Generator) -> list[str]:
+    """Causes that can be drawn, by chance; those that few campaigns can have come first so much more often."""
+    shown = [cause for cause in pool if _drawable(campaign, cause, limits)]
+    weight = np.array([EVERY.get(cause, 1.0) for cause in shown])
+    return (
+        [str(one) for one in rng.choice(shown, len(shown), replace=False, p=weight / weight.sum())]
+        if shown
+        else []
+    )
 
 
 def _drawable(campaign: Campaign, cause: str, limits: Limits) -> bool:

@@ -75,6 +75,37 @@ rule attack_machines:
         ATTACK_COMMAND + " machines {params.number} --folder results/attack > {log} 2>&1"
 
 
+rule attack_nonlinear:
+    """Mixes that are not linear where they are soft, and true offsets of the phase: six minutes of one core."""
+    input:
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=ATTACK_CODE,
+    output:
+        rows="results/attack/nonlinear.csv",
+        summary="results/attack/nonlinear_summary.csv",
+    log:
+        "results/attack/logs/nonlinear.log",
+    message:
+        "Tell mixes that are not linear from offsets of the phase"
+    shell:
+        ATTACK_COMMAND + " nonlinear --folder results/attack > {log} 2>&1"
+
+
+rule attack_power:
+    """Sizes at which causes are named in usual campaigns, and of a careful laboratory: ten minutes of one core."""
+    input:
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=ATTACK_CODE,
+    output:
+        multiext("results/attack/power", ".csv", "_limits.csv", "_cases.csv", "_summary.csv"),
+    log:
+        "results/attack/logs/power.log",
+    message:
+        "Say how small a fault is named in usual campaigns"
+    shell:
+        ATTACK_COMMAND + " power --folder results/attack > {log} 2>&1"
+
+
 rule attack_inside:
     """Faults inside simulated tests on the specimens of the study."""
     input:

@@ -91,10 +91,29 @@ if ATTACK:
             "campaign.json",
             *(
                 f"{name}.csv"
-                for name in ("machines", "machines_summary", "machine_measured", "inside", "inside_summary")
+                for name in (
+                    "machines",
+                    "machines_summary",
+                    "machine_measured",
+                    "inside",
+                    "inside_summary",
+                    "nonlinear",
+                    "nonlinear_summary",
+                    "power",
+                    "power_limits",
+                    "power_cases",
+                    "power_summary",
+                )
             ),
         ],
-        {"attack": "summary.csv", "machines": "machines_summary.csv", "machine_measured": "machine_measured.csv"},
+        {
+            "attack": "summary.csv",
+            "machines": "machines_summary.csv",
+            "machine_measured": "machine_measured.csv",
+            "nonlinear": "nonlinear_summary.csv",
+            "power": "power.csv",
+            "power_summary": "power_summary.csv",
+        },
     )
 for name, told in PUBLISHED.items():
     folder = f"results/{told.folder}"

@@ -38,7 +38,9 @@ PHASE_SEEN = 27.0  # deg
 GLASSY_OF_MIXES = (7e3, 1e5)  # MPa; no mix is beyond these
 USUAL_GLASSY = (14e3, 60e3)  # MPa, which a table in another unit must come to
 MOST_TESTS = 0.75  # of a table in the unit that it says; single ones may be wrong
+TURNED = 10.0  # deg, within which 90 less a phase is what |E*| requires
 SMOOTH = 0.15  # of ln |E*|
+ROUGH = 0.8  # of ln |E*| over the isotherms, that no mix leaves of a parabola
 COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
 
 
@@ -47,7 +49,8 @@ def slips(table: pd.DataFrame) -> Iterator[str]:
     yield from _units_of_labels(table)
     yield from _order_of_frequencies(table)
     yield from _radians(table)
-    moduli = list(_units_of_moduli(table))
+    yield from _complements(table)
+    moduli = [*_units_of_moduli(table), *_units_of_isotherms(table)]
     yield from moduli
     # A wrong unit makes isotherms seem exchanged, too: it is told alone.
     if not moduli:
@@ -105,6 +108,54 @@ def _radians(table: pd.DataFrame) -> Iterator[str]:
             )
 
 
+def _complements(table: pd.DataFrame) -> Iterator[str]:
+    """Phases that are 90 degrees less what they should be, of all specimens at an isotherm."""
+    seen = pd.DataFrame(_sweeps(table), columns=["specimen", "temperature_C", "slope", "phase_deg"])
+    median = seen.groupby("temperature_C")[["slope", "phase_deg"]].median()
+    required = 90.0 * median["slope"]
+    turned = (90.0 - median["phase_deg"] - required).abs() < TURNED
+    at = median[turned & ((median["phase_deg"] - required) > 2.0 * TURNED)]
+    if len(at):
+        yield (
+            f"the phases at {_listed(at.index.to_numpy())} degC (median {_listed(at['phase_deg'].to_numpy())}) look "
+            f"like 90 deg less the phase: |E*| requires about {_listed((90.0 * at['slope']).round().to_numpy())} deg; "
+            "subtract them from 90."
+        )
+
+
+def _units_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
+    """Isotherms whose |E*| in all specimens, taken as in another unit, makes a smooth course over the temperature."""
+    logarithm = _pivot_conditions(table).mean(axis=1).unstack(level=0).dropna()
+    temperature = logarithm.columns.to_numpy(float)
+    if len(logarithm) < 2 or temperature.size < LEAST:
+        return
+    level = logarithm.mean().to_numpy()
+    degree = 2 if temperature.size > LEAST + 1 else 1
+
+    def roughness(values: NDArray[np.float64]) -> float:
+        return float(np.ptp(values - np.polyval(np.polyfit(temperature, values, degree), temperature)))
+
+    tried = [
+        (roughness(level - np.log(factor) * (temperature == t)), float(t), unit)
+        for t in temperature
+        for unit, factor in FACTORS.items()
+        if unit != "kgf/cm2"  # ten times: a temperature in degF moves |E*| as far
+        if (np.diff(level - np.log(factor) * (temperature == t)) < 0.0).all()
+    ]
+    if not tried:
+        return
+    least = min(tried)[0]
+    likely = [one for one in tried if one[0] < max(2.0 * least, SMOOTH)]
+    if roughness(level) < max(4.0 * least, ROUGH) or len({unit for _, _, unit in likely}) > 1:
+        return
+    at = " or ".join(f"{t:g}" for _, t, _ in likely)
+    unit = likely[0][2]
+    yield (
+        f"at {at} degC |E*| is about {FACTORS[unit]:.3g} times what the other temperatures let expect, as it would be "
+        f"in {unit}; give it in MPa."
+    )
+
+
 def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
     logarithm = _pivot_conditions(table)
     if logarithm.shape[1] < 2:
@@ -143,11 +194,23 @@ def _warmer_but_stiffer(table: pd.DataFrame) -> Iterator[str]:
             if max(STIFFER_OF_ONE / root, SURE * error) < means.mean() < MOST_GAIN:
                 one = f" of {specimen_named(str(gains.columns[0]))}" if means.size == 1 else ""
                 every = "at every frequency" + " in every specimen" * (means.size > 1)
-                minus = f"was -{warm:g} degC meant? " if warm > 0.0 and -warm < cold else ""
                 yield (
                     f"the tests{one} at {warm:g} degC are stiffer than those at {cold:g} degC {every}, "
-                    f"by {np.exp(means.mean()):.2g} times: {minus}correct the temperatures."
+                    f"by {np.exp(means.mean()):.2g} times: {_meant(logarithm, warm, cold)}correct the temperatures."
                 )
+
+
+def _meant(logarithm: pd.DataFrame, warm: float, cold: float) -> str:
+    """The question for a temperature that lost its minus, or that is in degF, whichever |E*| lies nearer to."""
+    level = logarithm.mean(axis=1).groupby(level=0).mean()
+    others = level.drop(index=warm)
+    slope, base = np.polyfit(others.to_numpy(), others.index.to_numpy(), 1)
+    expected, celsius = base + slope * level[warm], celsius_of_fahrenheit(np.array([warm]))
+    options = {f"-{warm:g} degC": -warm} if warm > 0.0 and -warm < cold else {}
+    if _whole(celsius).all() and celsius[0] < cold:
+        options[f"{warm:g} degF, that is {celsius[0]:.0f} degC,"] = float(celsius[0])
+    nearest = min(options, key=lambda words: abs(options[words] - expected), default="")
+    return f"was {nearest} meant? " if nearest else ""
 
 
 def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
@@ -165,14 +228,17 @@ def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _unit_of_all_moduli(table: pd.DataFrame) -> Iterator[str]:
-    """A table whose specimens, each on its coldest isotherm, are too soft or too stiff for their own phase."""
-    coldest = table.groupby("specimen")["temperature_C"].transform("min")
-    glassy, told = [], ""
-    for specimen, temperature, slope, phase in _sweeps(table[table["temperature_C"] == coldest]):
-        tests = table[(table["specimen"] == specimen) & (table["temperature_C"] == temperature)]
+    """A table whose specimens, each on its coldest isotherm with a slope, are too soft or too stiff for their phase."""
+    glassy, told, done = [], "", set()
+    for specimen, temperature, slope, phase in _sweeps(table):
+        # In the cold the slope may be scatter, and the next isotherm tells.
+        if specimen in done or slope <= LEAST_SLOPE:
+            continue
+        done.add(specimen)
+        tests = table[(table["specimen"].astype(str) == specimen) & (table["temperature_C"] == temperature)]
         required = 90.0 * slope  # deg, by Kramers and Kronig: it knows no unit, and no offset of the phase
         seen = max(phase, required)
-        agree = slope > LEAST_SLOPE and 0.6 < phase / required < 1.6
+        agree = 0.6 < phase / required < 1.6
         if temperature > COLD or seen > PHASE_SEEN or not agree or not _is_cold_side(tests):
             continue
         modulus = float(tests["E_MPa"].median())

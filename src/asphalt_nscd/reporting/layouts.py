@@ -144,6 +144,20 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             }
         ),
     ],
+    "nonlinear": [Layout(_CRITERIA)],
+    "power": [
+        Layout(
+            {
+                "campaign": "campaign",
+                "laboratory": "laboratory",
+                "cause": "cause",
+                "unit": "unit",
+                "named_50%": "named in half",
+                "named_95%": "in 95 %",
+            }
+        )
+    ],
+    "power_summary": [Layout(_CRITERIA)],
     "machines": [Layout(_CRITERIA, where={"met": ("yes", "no")})],
     "machine_measured": [
         Layout(

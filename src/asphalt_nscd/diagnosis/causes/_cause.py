@@ -22,6 +22,9 @@ Place = str | float | None
 # (`search.with_discrepancy`). What sits at HEAD with one parameter and no place, and each of CHANNEL, is pooled over
 # a machine's campaigns too (`machine.pooled`).
 MATERIAL, SPECIMEN, HEAD, CHANNEL = range(4)
+EXCESS = (
+    "phases above what |E*| requires"  # of an offset, of a mix that is not linear, of a drift read as phase
+)
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,8 @@ class Cause(ABC):
     plain: what it is, and the rest of it with its size, where the size alone says little.
     alike: what never tells it from another explanation, as two names; empty where these tests may.
     followed: whether a law fitted without it follows it, so that only a fit with it decides.
+    alters_tests: whether what it does is taken off the tests once it is established; what a mix does itself is not.
+    family: what causes have in common that these tests may not tell apart: each is tried in the place of the others.
     """
 
     name: ClassVar[str]
@@ -82,6 +87,8 @@ class Cause(ABC):
     plain: ClassVar[tuple[str, str] | None] = None
     alike: ClassVar[tuple[str, str] | None] = None
     followed: ClassVar[bool] = False
+    alters_tests: ClassVar[bool] = True
+    family: ClassVar[str] = ""
 
     @property
     def one_sided(self) -> bool:
@@ -105,6 +112,10 @@ class Cause(ABC):
     def shapes(self, observed: Observations) -> Sequence[tuple[float, ...]]:
         """Values of the parameters after the first at which the search starts, at least one set of them."""
         return ((),)
+
+    def variants(self) -> Sequence[Cause]:
+        """The cause in each form that it may have; one form, unless a cause says more."""
+        return (self,)
 
     def rows(self, observed: Observations, place: Place) -> NDArray[np.bool_]:
         """Rows (n,) of the table that the cause reaches from its place."""

@@ -1,6 +1,6 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause, Complex, Expected, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import EXCESS, HEAD, Cause, Complex, Expected, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -17,6 +17,7 @@ class GuideFriction(Cause):
     benches = ("bending",)
     needs = "two-point bending: a cylinder in tension-compression has no guided head"
     parameters = (Parameter("loss_modulus", "Pa", 0.0, 5e9, 2e7),)
+    family = EXCESS
     expected = Expected(0.03, 1.2e8)  # Pa
     plain = ("friction in the guide", "(a loss modulus larger by {})")
     sentence = "dry friction in a guide adds a loss that does not depend on the frequency"

@@ -2,6 +2,7 @@ import numpy as np
 
 from asphalt_nscd.diagnosis.causes._cause import (
     CHANNEL,
+    EXCESS,
     Cause,
     Complex,
     Expected,
@@ -20,6 +21,7 @@ class PhaseOffset(Cause):
     stage = CHANNEL
     parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
     expected = Expected(0.06, 1.2)  # deg
+    family = EXCESS
     unseen = "A common phase offset"
     sentence = "the measured phase is off by the same angle in every test"
     signs = ("The measured phases are too large.", "The measured phases are too small.")

@@ -1,6 +1,6 @@
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import MATERIAL, Cause, Expected, Parameter, Vector
+from asphalt_nscd.diagnosis.causes._cause import EXCESS, MATERIAL, Cause, Expected, Parameter, Vector
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 
@@ -10,6 +10,7 @@ class SelfHeating(Cause):
     name = "self_heating"
     stage = MATERIAL
     parameters = (Parameter("largest_temperature_rise", "K", 0.0, 15.0, 0.5),)
+    family = EXCESS
     expected = Expected(0.03, 1.5)  # K
     sentence = "the specimens warm themselves while they are tested"
     confirmed_by = "a thermometer in the specimen, or the drift of the modulus during a longer test"

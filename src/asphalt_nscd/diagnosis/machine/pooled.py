@@ -38,6 +38,7 @@ def is_machine_cause(cause: Cause) -> bool:
 
 
 MACHINE = frozenset(cause.name for cause in CATALOGUE if is_machine_cause(cause))
+OF_TESTS = tuple(cause for cause in CATALOGUE if cause.alters_tests)
 FARTHEST = 30.0  # standard errors, beyond which a campaign is as far
 ITERATIONS = 30
 SETTLED = 2  # fits with the causes of the machine at their pooled size
@@ -64,7 +65,7 @@ class _Campaign:
         believe each of them less.
         """
         state = self.refit_campaign(causes, amplitudes).state
-        estimates = limits_beside.estimates(state, with_discrepancy.survey(state, CATALOGUE))
+        estimates = limits_beside.estimates(state, with_discrepancy.survey(state, OF_TESTS))
         named = {one.cause.name for one in state.fitted.active} | MACHINE
         return replace(self, spread=widening(spread_of(estimates, named)))
 

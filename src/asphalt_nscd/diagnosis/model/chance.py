@@ -98,9 +98,10 @@ def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:
 def catalogue_candidates(observed: Observations, catalogue: Sequence[Cause]) -> list[Candidate]:
     """Every cause at every place with every starting shape, absent (amplitude zero)."""
     return [
-        Candidate(cause, place, (0.0, *shape))
+        Candidate(variant, place, (0.0, *shape))
         for cause in catalogue
         for place in cause.places(observed)
+        for variant in cause.variants()
         for shape in cause.shapes(observed)
     ]
 

@@ -15,13 +15,20 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import CHANNEL
-from asphalt_nscd.diagnosis.criteria import LABORATORY, OF_ISOTHERM
+from asphalt_nscd.diagnosis.criteria import LABORATORY
 from asphalt_nscd.diagnosis.model import discrepancy, likelihood, start
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint, Vector
+from asphalt_nscd.diagnosis.model.likelihood import Reduced
 
 STEP = 0.05  # K or of ln time, of a derivative
+OF_FEW = (
+    "isotherm temperature",
+    "specimen times",
+)  # of which a table holds so few that one at fault enlarges them
+FEW = 2
+CLOSE = 0.01  # change of the objective at which a fit of the law ends that sizes are estimated beside
 
 
 @dataclass(frozen=True)
@@ -34,8 +41,13 @@ class Laboratory:
         """Factor (n, q) of the covariance of ln E* that the laboratory adds; `mounting` (n,) numbers mountings."""
         # A second specimen, of which a next test is, brings what a single one has not.
         roots = _roots(joint, at, mounting).items()
-        own = [self.sizes.get(kind, LABORATORY[kind].size) * root for kind, root in roots]
-        return np.hstack([_isotherm_factor(joint, at), *own])
+        return np.hstack([self.sizes.get(kind, LABORATORY[kind].size) * root for kind, root in roots])
+
+    def beside(self, joint: Joint, at: Fitted) -> Joint:
+        """The model whose noise is that of single tests, `joint`'s, and what the laboratory adds."""
+        factor = self.factor(joint, at, joint.noise.block)
+        noise = joint.noise.add_discrepancy(np.concatenate([factor.real, factor.imag]))
+        return Joint(joint.observed, joint.base, noise)
 
 
 def processes(joint: Joint, fitted: Fitted) -> tuple[Processes, tuple[str, ...]]:
@@ -63,17 +75,32 @@ def processes(joint: Joint, fitted: Fitted) -> tuple[Processes, tuple[str, ...]]
 def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
     """Sizes of the laboratory's effects beside the discrepancy; the noise is the scatter of single tests."""
     found, kinds = processes(joint, fitted)
-    variances = likelihood.estimate(likelihood.reduce(found, fitted)).variances[-len(kinds) :]
+    model = likelihood.reduce(found, fitted)
+    whole = likelihood.estimate(model).variances
+    first = whole.size - len(kinds)
     return Laboratory(
-        {kind: LABORATORY[kind].size * float(np.sqrt(v)) for kind, v in zip(kinds, variances, strict=True)}
+        {
+            kind: LABORATORY[kind].size * float(np.sqrt(_without_one(model, fitted, whole, first + k, kind)))
+            for k, kind in enumerate(kinds)
+        }
     )
 
 
-def isotherm_noise_model(joint: Joint, fitted: Fitted) -> Joint:
-    """The model whose noise is the scatter of single tests and the temperatures of isotherms, whose size is stated."""
+def _without_one(model: Reduced, fitted: Fitted, whole: Vector, k: int, kind: str) -> float:
+    """Variance of an effect; the least with one isotherm or specimen free, which may be at fault, of more than FEW."""
+    columns = np.flatnonzero(model.processes.block == k)
+    if kind not in OF_FEW or columns.size <= FEW:
+        return float(whole[k])
+    free = likelihood.directions(model, fitted, model.processes.factor[:, columns])
+    each = (likelihood.estimate(model, free.column(at)).variances for at in range(columns.size))
+    return min(float(variances[k]) for variances in each)
+
+
+def alone(joint: Joint) -> Joint:
+    """The model whose noise is the scatter of single tests."""
     # What a block shares is its mounting's: it is not counted twice.
-    alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared), discrepancy=None)
-    return Joint(joint.observed, joint.base, alone.add_discrepancy(_parts(_isotherm_factor(joint, fitted))))
+    noise = replace(joint.noise, shared=np.zeros_like(joint.noise.shared), discrepancy=None)
+    return Joint(joint.observed, joint.base, noise)
 
 
 def add_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | None]:
@@ -85,36 +112,27 @@ def add_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | No
     # several times as large.
     shared = tuple(Candidate(cause, None, (0.0,)) for cause in CATALOGUE if cause.stage == CHANNEL)
     free, beside = start.fit_spectrum(joint.observed, joint.noise, (*fitted.active, *shared))
-    held = isotherm_noise_model(free, beside)
+    held = alone(free)
     found = estimate(held, held.linearise(beside.law, beside.scales, beside.active))
-    alone = replace(joint.noise, shared=np.zeros_like(joint.noise.shared))
-    noise = alone.add_discrepancy(_parts(found.factor(joint, fitted, alone.block)))
-    return Joint(joint.observed, joint.base, noise), found
-
-
-def _parts(factor: NDArray[np.complex128]) -> NDArray:
-    """Of modulus and of phase, one above the other."""
-    return np.concatenate([factor.real, factor.imag])
-
-
-def _isotherm_factor(joint: Joint, at: Fitted) -> NDArray[np.complex128]:
-    """Factor (n, isotherms) of their temperatures."""
-    observed = joint.observed
-    isotherm = observed.isotherm[:, None] == observed.isotherms
-    return OF_ISOTHERM * _temperature_slope(joint, at.law)[:, None] * isotherm
+    # A law that was fitted without them has bent to the temperatures: fitted beside them, it leaves them to the tests.
+    straight = found.beside(held, beside).fit(beside.law, beside.scales, beside.active, CLOSE)
+    found = estimate(held, held.linearise(straight.law, straight.scales, straight.active))
+    return found.beside(alone(joint), fitted), found
 
 
 def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, NDArray[np.complex128]]:
     """What one unit of each effect does to ln E*, a column for each mounting."""
     mounted = np.eye(int(mounting.max()) + 1, dtype=complex)[mounting]
+    observed, per_kelvin = joint.observed, _temperature_slope(joint, at.law)[:, None]
     roots = {
-        "specimen temperature": _temperature_slope(joint, at.law)[:, None] * mounted,
+        "isotherm temperature": per_kelvin * (observed.isotherm[:, None] == observed.isotherms),
+        "specimen temperature": per_kelvin * mounted,
         "mounting, modulus": mounted,
         "mounting, phase": 1j * mounted,
     }
     # Times of a single specimen are the law's.
-    if len(joint.observed.names) > 1:
-        specimens = np.eye(len(joint.observed.names))[joint.observed.specimen]
+    if len(observed.names) > 1:
+        specimens = np.eye(len(observed.names))[observed.specimen]
         roots["specimen times"] = _time_slope(joint, at.law)[:, None] * specimens
     return roots
 

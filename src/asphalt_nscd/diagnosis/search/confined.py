@@ -141,7 +141,7 @@ def _linear_start(state: State) -> tuple[_Beside, Noise]:
     at = state.fitted
     if state.plain.observed.isotherms.size < 2:
         return _Beside(state.linear, state.model), state.plain.noise
-    joint = laboratory.isotherm_noise_model(state.plain, at)
+    joint = laboratory.alone(state.plain)
     linear = joint.linearise(at.law, at.scales, at.active)
     return _Beside(linear, likelihood.reduce(laboratory.processes(joint, linear)[0], linear)), joint.noise
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,7 @@ from scipy.special import chdtrc, fdtrc
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause
-from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
+from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, CONFIDENCE, LEAST_ISOTHERMS, MIXES_TURN, NAMED
 from asphalt_nscd.diagnosis.model import chance, start
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.joint import Fitted, Joint
@@ -19,10 +20,11 @@ from asphalt_nscd.diagnosis.model.probability import stated
 from asphalt_nscd.diagnosis.observed import copies, scatter
 from asphalt_nscd.diagnosis.observed.noise import Noise
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.screening import causality, suspects, within_isotherm
+from asphalt_nscd.diagnosis.screening import causality, excess_phase, suspects, within_isotherm
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.screening.within_isotherm import LooPrediction
 from asphalt_nscd.diagnosis.search.doubts import Key
+from asphalt_nscd.diagnosis.search.hypotheses import Hypothesis, hypotheses
 from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung, climb
 from asphalt_nscd.diagnosis.settings import Draws
 from asphalt_nscd.diagnosis.written import shown
@@ -68,18 +70,40 @@ class Diagnosis:
 
     def established(self, rung: Rung) -> bool:
         """Whether the whole table carries a name and it has no rival, named or not; never of too few tests."""
-        return not self.too_few and rung.probability >= NAMED and self.taken_off(rung)
+        stays = self._undisputed(rung) and not self._as_mixes_do(rung)
+        return not self.too_few and rung.probability >= NAMED and stays
 
     def probability(self, rung: Rung) -> float:
         """Probability of a name as stated, calibrated on drawn tables: all that speaks for or against it counts."""
         return stated(rung.probability, self.established(rung), rung.candidate.key in self.doubts)
 
+    @cached_property
+    def hypotheses(self) -> list[Hypothesis]:
+        """Explanations that the table leaves open, the likeliest first; one alone where all that is named is sure."""
+        stated_of = {rung.candidate.key: self.probability(rung) for rung in self.ladder.rungs}
+        return hypotheses(self.ladder, stated_of)
+
     def taken_off(self, rung: Rung) -> bool:
         """Whether law.json is free of a cause, and the extended simulation holds it.
 
-        What the table itself speaks against stays in the data: not where a rival fits as well, where there are doubts,
-        or where it hangs on one isotherm, frequency or specimen.
+        What the table itself speaks against stays in the data, and what the mix does itself: not where a rival fits as
+        well, where there are doubts, or where it hangs on one isotherm, frequency or specimen.
         """
+        alters = rung.candidate.cause.alters_tests and not self._as_mixes_do(rung)
+        return alters and self._undisputed(rung)
+
+    def _as_mixes_do(self, rung: Rung) -> bool:
+        """Whether a fault turns phases by no more than mixes that are not linear do."""
+        candidate = next(one for one in self.ladder.fitted.active if one.key == rung.candidate.key)
+        if not (candidate.cause.family and candidate.cause.alters_tests):
+            return False
+        joint, law = self.ladder.joint, self.ladder.fitted.law
+        turned = np.angle(joint.apparent(law, (candidate,))[0] / joint.apparent(law, ())[0])
+        size, error = abs(candidate.values[0]), float(self.ladder.std_errors(candidate)[0])
+        least = max(1.0 - CONFIDENCE * error / max(size, 1e-300), 0.0)
+        return bool(least * np.quantile(np.abs(turned), 0.9) < MIXES_TURN)
+
+    def _undisputed(self, rung: Rung) -> bool:
         if rung.rivals or rung.candidate.key in self.doubts:
             return False
         return not self.ladder.hangs_on[rung.candidate.key]
@@ -115,6 +139,9 @@ def diagnose(
             f"{100.0 * scatter.FLOOR:g} % and {np.degrees(scatter.FLOOR):.2g} deg. Check that they are separate tests."
         )
     alone = noise
+    # No law of the mix is needed to see that its phases are too large; else a softening would be a misfit of the law.
+    above = excess_phase.shows_excess(observed, alone)
+    catalogue = tuple(cause for cause in catalogue if cause.alters_tests or above)
     joint, fitted = start.fit_spectrum(observed, noise)
     wide, laboratory = add_laboratory(joint, fitted)
     if laboratory is not None:

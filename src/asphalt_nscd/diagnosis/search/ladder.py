@@ -26,7 +26,7 @@ ONE_SIGN = frozenset(cause.name for cause in CATALOGUE if cause.one_sided)
 
 @dataclass(frozen=True)
 class Rung:
-    """One step of the ladder: a cause, its chance level, the fits, rivals as good, the probability of the name."""
+    """One step of the ladder: a cause, its chance level, the fits, rivals as good, its probability and theirs."""
 
     candidate: Candidate
     p_value: float
@@ -34,6 +34,7 @@ class Rung:
     after: Fitted
     rivals: tuple[Candidate, ...]
     probability: float
+    shares: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -75,6 +76,7 @@ class Ladder:
     smallest: list[confined.Odd] = field(default_factory=list)
     doubts: dict[Key, list[str]] = field(default_factory=dict)
     at_highest: highest_frequency.AtHighest | None = None
+    end: fit_beside.State | None = None
 
     @property
     def fitted(self) -> Fitted:
@@ -177,7 +179,7 @@ def _take(
     end: fit_beside.State,
 ) -> None:
     """Rungs and fits of an ascent beside a discrepancy."""
-    ladder.joint, ladder.start = end.wide, begun.fitted
+    ladder.joint, ladder.start, ladder.end = end.wide, begun.fitted, end
     ladder.rungs = [
         Rung(
             one.candidate,
@@ -186,6 +188,7 @@ def _take(
             one.after.fitted,
             one.rivals,
             one.probability,
+            one.shares,
         )
         for one in found
     ]

@@ -55,7 +55,7 @@ NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
 
 @dataclass(frozen=True)
 class Found:
-    """One cause taken: its chance level, the states before and after, rivals that did as well, its probability."""
+    """One cause taken: its chance level, states before and after, rivals as good, its probability and theirs."""
 
     candidate: Candidate
     p_value: float
@@ -63,6 +63,7 @@ class Found:
     after: State
     rivals: tuple[Candidate, ...]
     probability: float
+    shares: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -167,6 +168,11 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         key = candidates[k].key
         if eligible[k] and (key in shortlist or len(shortlist) < REFITS):
             shortlist.setdefault(key, []).append(int(k))
+    # Of causes that look alike, each is tried in the place of the others, by its best form.
+    families = {candidates[group[0]].cause.family for group in shortlist.values()} - {""}
+    for k in np.argsort(-gains):
+        if candidates[k].cause.family in families:
+            shortlist.setdefault(candidates[k].key, [int(k)])
     # A discrepancy sized without an error of all phases may have taken it up whole.
     taken_up = {k for k, one in enumerate(candidates) if large and one.cause.stage == CHANNEL}
     for k in taken_up:
@@ -196,21 +202,23 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
             if not stands(state, after, taken, own):
                 continue
             odds[k] = log_odds(taken, state.plain.observed, gain, own.std_error * float(taken.typical[0]))
-            if z[k] > least:
-                refits.append((gain, k, after))
-    if not refits:
+            refits.append((gain, k, after))
+    if all(z[k] <= least for _, k, _ in refits):
         return None
+    sure = {candidates[k].cause.family for _, k, _ in refits if z[k] > least} - {""}
+    refits = [refit for refit in refits if z[refit[1]] > least or candidates[refit[1]].cause.family in sure]
     most = max(gain for gain, _, _ in refits)
     as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
     # Equals in gain are told apart by what is usual of them, and not by a trifle; one at its bound comes last.
     _, k, after = max(as_good, key=lambda refit: (not refit[2].fitted.active[-1].pinned, odds[refit[1]]))
-    rivals = tuple(other.fitted.active[-1] for _, j, other in as_good if j != k)
+    rivals = {j: other.fitted.active[-1] for _, j, other in as_good if j != k}
     share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
     # A name and what fits as well are told together: they share their probability.
     if sum(share[j] for _, j, _ in as_good) < POSSIBLE:
         return None
     p_value = chance.tail(by_chance, float(z[k]))
-    return Found(after.fitted.active[-1], p_value, state, after, rivals, share[k])
+    taken, theirs = after.fitted.active[-1], tuple(share[j] for j in rivals)
+    return Found(taken, p_value, state, after, tuple(rivals.values()), share[k], theirs)
 
 
 def _both_of_the_channel(

@@ -1,0 +1,57 @@
+"""What a table cannot decide: each explanation that it leaves open, with its probability, its law and its causes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from asphalt_nscd.diagnosis.model.fit_beside import State, refit_causes
+from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung
+
+LEAST = 0.03  # probability below which an explanation is left out: none is stated above 0.98
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """One explanation: its probability, and the law with the causes that go with it, fitted beside the discrepancy."""
+
+    probability: float
+    joint: Joint
+    fitted: Fitted
+
+    @property
+    def causes(self) -> tuple[Candidate, ...]:
+        """With their values."""
+        return self.fitted.active
+
+
+def hypotheses(ladder: Ladder, stated: Mapping[tuple, float]) -> list[Hypothesis]:
+    """The names as they stand; each undecided one absent, or a rival in its place, the others kept.
+
+    `stated` is the probability of each name, by cause and place. The likeliest first; all add up to one.
+    """
+    end = ladder.end
+    if end is None or not ladder.rungs:
+        return [Hypothesis(1.0, ladder.joint, ladder.fitted)]
+    found = [(1.0, end), *_others(end, ladder.rungs, stated)]
+    whole = sum(odds for odds, _ in found)
+    told = [Hypothesis(odds / whole, state.wide, state.fitted) for odds, state in found]
+    return sorted(told, key=lambda one: -one.probability)
+
+
+def _others(end: State, rungs: list[Rung], stated: Mapping[tuple, float]) -> Iterator[tuple[float, State]]:
+    """Odds over the names as they stand, and the fit, of each explanation that differs at one name."""
+    for rung in rungs:
+        key = rung.candidate.key
+        named = stated[key]
+        # What is stated of a name is less than the model's: so is what is stated of its rivals.
+        scale = named / max(rung.probability, 1e-9)
+        ways = {rival: share * scale for rival, share in zip(rung.rivals, rung.shares, strict=True)}
+        kept = tuple(one for one in end.fitted.active if one.key != key)
+        taken = {one.key for one in kept}
+        absent = max(1.0 - named - sum(ways.values()), 0.0)
+        for rival, probability in [*ways.items(), (None, absent)]:
+            if probability >= LEAST and (rival is None or rival.key not in taken):
+                active = kept if rival is None else (*kept, rival)
+                yield probability / max(named, 1e-9), refit_causes(end, active)
