@@ -77,19 +77,6 @@ def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
         assert name in " ".join(campaign.without_tests)
 
 
-def test_a_place_without_tests_is_refused(tmp_path):
-    refused(read_campaign, [tmp_path / "none.csv"], names=["none.csv"])
-    refused(read_campaign, [tmp_path], names=[str(tmp_path)])
-    (tmp_path / "scan.pdf").write_bytes(b"%PDF")
-    (tmp_path / "A").mkdir()
-    refused(exports, tmp_path, **{"A/a": export("A", 4), "names": ["scan.pdf", "A (a folder"]})
-
-
-def test_one_reason_of_many_files_is_said_once(tmp_path):
-    without_unit = {f"e{n}": export("A", 4, 1.0 + n).replace(" (MPa)", "") for n in range(9)}
-    refused(exports, tmp_path, **without_unit, names=["e0.csv, e1.csv, e2.csv and 6 more", "Dynamic modulus"])
-
-
 @pytest.mark.parametrize(
     ("b", "names"),
     [

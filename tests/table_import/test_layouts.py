@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import zipfile
 from itertools import product
 
 import pytest
@@ -40,13 +39,6 @@ def replicates(label, *, merged=False):
         shown = None if merged and f != FREQUENCIES[0] else t
         rows.append([shown, f, *(modulus(s, t, f) for s in "AB"), *(phase(s, t, f) for s in "AB")])
     return [head, [None, None, *(label.format(s) for s in "AB"), *(label.format(s) for s in "AB")], *rows]
-
-
-def by_specimen():
-    above = [None, None, "Core A", None, "Core B", None]
-    names = [*KEYS, *["E* (MPa)", "phi (°)"] * 2]
-    rows = [[t, f, *(x for s in "AB" for x in (modulus(s, t, f), phase(s, t, f)))] for t, f in conditions()]
-    return [above, names, *rows]
 
 
 def flat(modulus_name, phase_name):
@@ -92,17 +84,6 @@ def parts(e, p):
     return e * math.cos(math.radians(p)), e * math.sin(math.radians(p))
 
 
-def beside():
-    """Frequency down; the temperatures of |E*| across, and then those of the phase."""
-    head = [None, "|E*| (MPa)", None, None, "phi (deg)"]
-    below = ["f (Hz)", *(f"{t:g} °C" for t in TEMPERATURES), *(f"{t:g} °C" for t in TEMPERATURES)]
-    rows = [
-        [f, *(modulus("A", t, f) for t in TEMPERATURES), *(phase("A", t, f) for t in TEMPERATURES)]
-        for f in FREQUENCIES
-    ]
-    return [head, below, *rows]
-
-
 def under(s, *lines):
     return [*lines, ["T° (°C)", "Freq. (Hz)", "E* (MPa)", "δ (°)"]] + [
         [t, f, modulus(s, t, f), phase(s, t, f)] for t, f in conditions()
@@ -110,38 +91,18 @@ def under(s, *lines):
 
 
 FILES = {
-    "Spec. 1": (replicates("Spec. {}"), TESTS),
-    "Specimen 1, temperatures merged": (replicates("Specimen {}", merged=True), TESTS),
-    "letters": (replicates("{}"), TESTS),
     "letters that are units": (
         [replicates("{}")[0], [None, None, "C", "F", "C", "F"], *replicates("{}")[2:]], TESTS),
     "below a title": ([["Dynamic modulus, AASHTO T 378"], ["Mix", "A 13"], *replicates("Sample {}")], TESTS),
-    "by specimen": (by_specimen(), TESTS),
-    "E* 1 (MPa)": (flat("E* {} (MPa)", "Phase {} (°)"), TESTS),
-    "|E*|_1 [MPa]": (flat("|E*|_{} [MPa]", "phi{} [deg]"), TESTS),
     "E1, E2 as specimens": (flat("E{} (MPa)", "phi {} (°)"), TESTS),
     "means beside": (with_means(), TESTS),
-    "E* at 4C (MPa)": (at_temperatures("E* at {:g}C (MPa)", "phase at {:g}C (deg)"), TESTS),
     "E* (4 °C)": (at_temperatures("E* (MPa) (T={:g} °C)", "phi (°) (T={:g} °C)"), TESTS),
-    "matrices": (
-        [["|E*| (MPa)"], *matrix(modulus, corner="T (°C) \\ f (Hz)"), [],
-         ["Phase (°)"], *matrix(phase, corner="T (°C) \\ f (Hz)")], OF_A),
     "matrices, temperature across": (
         [["E* (MPa)"], [None, "Temperature (°C)"], *matrix(modulus, corner="f (Hz)", across=True),
          ["phi (°)"], [None, "Temperature (°C)"], *matrix(phase, corner="f (Hz)", across=True)], OF_A),
     "two sheets": (
         {"Modulus": [["E* (MPa)"], [None, "f (Hz)"], *matrix(modulus, corner="T (°C)")],
          "Phase": [["Phase (°)"], [None, "f (Hz)"], *matrix(phase, corner="T (°C)")]}, OF_A),
-    "matrices beside": (beside(), OF_A),
-    "matrices of two specimens": (
-        [line for s in "AB" for line in (
-            ["Specimen", s], ["E* (MPa)"], [None, "f (Hz)"], *matrix(modulus, corner="T (°C)", s=s),
-            ["phi (°)"], [None, "f (Hz)"], *matrix(phase, corner="T (°C)", s=s))], TESTS),
-    "specimen above": ({f"Sheet{s}": under(s, ["Specimen", f"Core {s}"], ["Air voids (%)", 5.1]) for s in "AB"}, TESTS),
-    "sections": ([*under("A", ["Specimen", "Core A"]), [], *under("B", ["Specimen", "Core B"])], TESTS),
-    "matrices, a sheet for each specimen": (
-        {s: [["|E*| (MPa)"], *matrix(modulus, corner="T (°C) \\ f (Hz)", s=s), [],
-             ["Phase (°)"], *matrix(phase, corner="T (°C) \\ f (Hz)", s=s)] for s in "AB"}, TESTS),
     "title with en": (
         {"Module": [["Module complexe |E*| en MPa"], *matrix(modulus, corner="T (°C) \\ f (Hz)")],
          "Angle": [["Angle de phase en °"], *matrix(phase, corner="T (°C) \\ f (Hz)")]}, OF_A),
@@ -165,7 +126,6 @@ FILES = {
         [[*row, None, "Air voids", 5.1] if n in (1, 3) else row
          for n, row in enumerate(long([*KEYS, "E* (MPa)", "phi (°)"]))], TESTS),
     "E1 and E2": (long([*KEYS, "E1 (MPa)", "E2 (MPa)"], parts), TESTS),
-    "tan delta": (long([*KEYS, "|E*| (MPa)", "tan δ"], lambda e, p: (e, math.tan(math.radians(p)))), TESTS),
 }  # fmt: skip
 
 
@@ -237,14 +197,6 @@ def test_a_text_is_no_name_of_a_column(tmp_path):
     refused(read, tmp_path, [[*KEYS, long_name, "phi (°)"], PAIR[1]], names=["no column for |E*|"])
     table = read(tmp_path, [[*KEYS, long_name[-23:], "phi (°)"], PAIR[1]]).table
     assert table.numbers("E_MPa").tolist() == [9000]
-
-
-def test_files_that_are_no_tables_are_told_by_what_they_hold(tmp_path):
-    (tmp_path / "t.csv").write_bytes(b"%PDF-1.7\n\xe2\xe3\xcf\xd3\n" + bytes(range(1, 256)))
-    with zipfile.ZipFile(tmp_path / "t.xlsx", "w") as archive:
-        archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
-    refused(read_campaign, [tmp_path / "t.csv"], names=["t.csv", "not text"])
-    refused(read_campaign, [tmp_path / "t.xlsx"], names=["t.xlsx", "cannot be read"])
 
 
 def test_degrees_fahrenheit_by_hertz_without_phase(tmp_path):

@@ -128,11 +128,6 @@ def test_encodings(tmp_path, codec):
     require_plain(read(tmp_path, EXPORT, codec=codec))
 
 
-def test_bytes_of_no_known_encoding_are_refused(tmp_path):
-    (tmp_path / "e.csv").write_bytes(EXPORT.encode("latin-1") + b"\x81\n")
-    refused(read_campaign, [tmp_path / "e.csv"], names=["e.csv", "UTF-8"])
-
-
 def with_commas(separator):
     return EXPORT.replace(",", separator).replace(".", ",").replace("Std Dev,", "Std Dev.")
 
@@ -190,11 +185,6 @@ def test_frequency_without_a_result_is_left_out_and_said(tmp_path):
     campaign = read(tmp_path, text)
     assert columns(campaign, "frequency_Hz") == [[25, 10]]
     assert "frequencies without a modulus left out: 1" in campaign.notes
-
-
-def test_an_export_may_end_with_its_phases(tmp_path):
-    whole = EXPORT[: EXPORT.index(" Average temperature")]
-    assert moduli(read(tmp_path, whole)) == ([9100, 8000, 5000], [12.5, 13.25, 19])
 
 
 @pytest.mark.parametrize(

@@ -84,14 +84,6 @@ def test_small_study_keeps_the_measured_geometry_beside_the_simulated_one():
     assert study["specimens"]["seeds"] == [1]
 
 
-def test_a_table_too_short_for_a_diagnosis_is_refused_at_once():
-    two = "specimen,T (°C),f (Hz),E (MPa),phi (deg)\na,15,10,5000,20\na,15,25,6000,18\n"
-    Path("two.csv").write_text(two, encoding="utf-8")
-    names = ["two.csv", "2 tests at 2 frequencies"]
-    refused(new_study, "mine", [Path("two.csv")], StudyOptions(), names=names)
-    assert not Path("data/mine").exists()
-
-
 def test_prism_is_simulated_as_a_prism():
     study = made(geometry=PRISM)
     assert study["specimens"]["geometry"] == PRISM
@@ -187,8 +179,3 @@ def test_file_names_cannot_write_into_the_configuration():
 def test_duration_grows_with_slow_tests_and_is_the_paper_studys_for_the_paper():
     assert duration(14160, 4, 6, [3, 6, 10, 25, 40], 5e-5) in {f"about {n} minutes" for n in range(12, 31)}
     assert duration(14160, 4, 6, [0.001, 40], 5e-5).endswith("hours")
-
-
-def test_an_installed_package_has_no_studies(monkeypatch):
-    monkeypatch.setattr("asphalt_nscd.table_import.write.SCHEMA", Path("nowhere/study.schema.yaml"))
-    refused(made, names=["repository"])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import openpyxl
 import pytest
-from table_import.slips import HEADER, ROWS, as_is, plain, read, refused, said
+from table_import.slips import HEADER, ROWS, as_is, plain, read, said
 
 from asphalt_nscd.table_import.campaign import read_campaign
 
@@ -68,12 +68,6 @@ def test_sheets_of_temperatures(tmp_path):
     pairs = [(s, t) for s in "AB" for t in (4, 21)]
     both = {f"{s} {t}C": [HEADER[2:], *(r[2:] for r in ROWS if r[:2] == [s, t])] for s, t in pairs}
     assert plain(read(tmp_path, both, "t.xlsx").table) == as_is(tmp_path)
-
-
-def test_an_error_in_one_sheet_names_it(tmp_path):
-    sheets = by_specimen()
-    sheets["B"][2][2] = "many"
-    refused(read, tmp_path, sheets, "t.xlsx", names=["t.xlsx, sheet B, line 3: E (MPa)", "'many'"])
 
 
 def test_a_hidden_sheet_is_not_read(tmp_path):

@@ -35,12 +35,6 @@ def read(folder, file, header="4", specimen="Mix-7", measured=None):
     return columns.get("nominal_temperature_C", columns["temperature_C"]), " ".join(campaign.notes)
 
 
-def test_name_and_header_that_agree_are_not_mentioned(tmp_path):
-    target, notes = read(tmp_path, "Mix-7_4C_Sum.csv", specimen="Mix-7-4C")
-    assert target == [4] * 3
-    assert "the name" not in notes
-
-
 @pytest.mark.parametrize(
     ("file", "specimen"), [("Mix-7_21C_Sum.csv", "Mix-7"), ("Mix-7_Sum.csv", "Mix-7-21C")]
 )
@@ -90,11 +84,6 @@ def test_a_temperature_that_nothing_decides_is_refused(tmp_path, file, header, s
 )  # fmt: skip
 def test_the_temperature_that_is_taken(tmp_path, file, header, specimen, measured, target):
     assert read(tmp_path, file, header, specimen, measured)[0] == [float(target)] * 3
-
-
-def test_a_hyphen_before_the_temperature_is_said_to_separate_where_it_may_be_a_minus(tmp_path):
-    assert "10 degC taken from the name 'Mix-7-10C (X1)'" in read(tmp_path, "e.csv", None, "Mix-7-10C")[1]
-    assert "separator" not in read(tmp_path, "e.csv", None, "Mix-7-37C")[1]
 
 
 def test_readings_stand_where_only_a_name_contradicts_them(tmp_path):

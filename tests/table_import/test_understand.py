@@ -117,11 +117,6 @@ def test_units_in_a_line_of_their_own():
     assert read["E_MPa"] == [9000]
 
 
-def test_replicates_of_specimens_are_told_apart():
-    read = columns("specimen;replicate;T_C;f_Hz;E_MPa;phi_deg", "A;1;15;10;9000;20", "A;2;15;10;9100;20")
-    assert (read["specimen"], read["replicate"]) == (["A", "A"], ["1", "2"])
-
-
 def test_frequencies_of_headings_have_a_mark_of_their_own():
     """`0.5 Hz` above cells with decimal commas; digits that may be grouped are refused all the same."""
     header = "T_C;E (MPa) 10 Hz;phi (deg) 10 Hz;E (MPa) 0.5 Hz;phi (deg) 0.5 Hz"

@@ -226,10 +226,10 @@ def _folder(folder: Path, notes: list[str], wanted: _Wanted) -> tuple[list[Part]
             try:
                 parts += _file(path, notes, wanted)
             except InputError as error:
-                if not isinstance(error, NotTests) and _meant(path, wanted.sheet):
+                text, none = path.suffix.lower() in TEXT_FILES, isinstance(error, NotTests)
+                if not none and _holds_tests(path, wanted.sheet, unreadable=not text):
                     raise
-                text = isinstance(error, NotTests) and path.suffix.lower() in TEXT_FILES
-                (others if text else empty).append(refused(path.name, error, path))
+                (others if none and text else empty).append(refused(path.name, error, path))
     if not parts:
         held = f"; it holds {listed([*empty, *others])}" if empty or others else ""
         mend = common_mend(empty) or "give the machine's exports or a table of moduli."
@@ -241,23 +241,12 @@ def _folder(folder: Path, notes: list[str], wanted: _Wanted) -> tuple[list[Part]
     return parts, f"{len(empty)} of {files} files gave no test: {listed(empty)}." if empty else ""
 
 
-def _meant(path: Path, sheet: str | None) -> bool:
-    """Whether a file that is refused was meant to hold tests: some cell names a modulus or a force with its unit.
-
-    A CSV or XLSX file that cannot even be opened may hold tests; running text may not.
-    """
+def _holds_tests(path: Path, sheet: str | None, unreadable: bool = False) -> bool:
+    """Whether a cell of a file names a modulus or a force with its unit; `unreadable` if it cannot be opened."""
     try:
         return any(_names_tests(one.rows) for one in read_sheets(path, sheet))
     except InputError:
-        return path.suffix.lower() not in TEXT_FILES
-
-
-def _holds_tests(path: Path, sheet: str | None) -> bool:
-    """Whether a file with an unknown ending is a table that names a modulus or a force with its unit all the same."""
-    try:
-        return any(_names_tests(one.rows) for one in read_sheets(path, sheet))
-    except InputError:
-        return False
+        return unreadable
 
 
 def _names_tests(rows: list[Row]) -> bool:

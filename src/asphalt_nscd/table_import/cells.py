@@ -72,17 +72,12 @@ class Cells:
 
 
 def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
-    """Cells of a text file or a workbook below its line of names; see `read_rows`."""
-    return build_cells(Path(path), *read_rows(path, sheet))
-
-
-def read_rows(path: str | Path, sheet: str | None = None) -> tuple[list[Row], list[str]]:
-    """Rows of a file with one table, and how they were read; several sheets with content need `sheet`."""
+    """Cells of a file with one table, below its line of names; several sheets with content need `sheet`."""
     sheets = read_sheets(path, sheet)
     if len(sheets) > 1:
         names = ", ".join(str(one.name) for one in sheets)
         raise InputError(f"{path}: sheets {names} all hold something; name one with --sheet.")
-    return sheets[0].rows, sheets[0].notes
+    return build_cells(Path(path), sheets[0].rows, sheets[0].notes)
 
 
 def read_sheets(path: str | Path, sheet: str | None = None) -> list[Sheet]:

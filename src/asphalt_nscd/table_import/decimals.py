@@ -56,9 +56,11 @@ def decimal_mark(where: str, numbers: Iterable[tuple[int, str]]) -> str:
         raise InputError(f"{where}, line {doubtful[0]}: {doubtful[1]!r} is text; enter it as a number.")
     if len(first) == 2:
         (comma_line, comma), (point_line, point) = first[","], first["."]
+        grouped = next((text for text in (comma, point) if _GROUPED.fullmatch(text)), "")
         raise InputError(
-            f"{where}: {comma!r} (line {comma_line}) and {point!r} (line {point_line}) have different decimal "
-            f"marks{_groups_note(comma, point)}; write all numbers with the same{_ungrouped(comma, point)}."
+            f"{where}: {comma!r} (line {comma_line}) and {point!r} (line {point_line}) have different decimal marks"
+            + (f", or {grouped!r} groups its digits in thousands" if grouped else "")
+            + f"; write all numbers with the same{' and without separators' if grouped else ''}."
         )
     return "," if "," in first else "."
 
@@ -67,15 +69,6 @@ def match_decimal_mark(heading: str, cells: Iterable[str]) -> str:
     """A number of a heading with the decimal mark of cells below it, where one of them can mean nothing else."""
     comma = any(_COMMA.fullmatch(cell) and not _GROUPED.fullmatch(cell) for cell in cells)
     return heading.replace(".", ",") if comma else heading
-
-
-def _groups_note(*texts: str) -> str:
-    grouped = next((text for text in texts if _GROUPED.fullmatch(text)), None)
-    return f", or {grouped!r} groups its digits in thousands" if grouped else ""
-
-
-def _ungrouped(*texts: str) -> str:
-    return " and without separators" if _groups_note(*texts) else ""
 
 
 def number(cell: str, mark: str = "") -> float | None:
