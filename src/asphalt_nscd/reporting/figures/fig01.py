@@ -141,7 +141,9 @@ def _scheme(axes: Axes, made: _Drawing, shape: Any) -> None:
         if driven:
             along = np.array([0.16 * h, 0.0] if made.bends else [0.0, 0.1 * h])
             start = np.array([0.72 * width, level * h] if made.bends else [0.0, (level + 0.04) * h])
-            axes.annotate("", start + along, xytext=start, arrowprops={"arrowstyle": "<->", "lw": 0.9})
+            axes.annotate(
+                "", tuple(start + along), xytext=tuple(start), arrowprops={"arrowstyle": "<->", "lw": 0.9}
+            )
     right = 0.75 * width + 0.2 * h
     for level, text in made.said:
         axes.text(right, level * h, text, va="center")
