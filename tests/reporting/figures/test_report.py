@@ -130,11 +130,6 @@ def test_one_number_for_before_stands_on_the_first_page(page, tmp_path):
     assert "2.5" in html and "0.6" in html
 
 
-def test_what_to_beware_of_stands_on_the_first_page(page, tmp_path):
-    html = assemble("mine", page(notes=["Only one specimen."]), [], tmp_path.glob("*.rst"))
-    assert html.index("<h2>Why") < html.index("Only one specimen.") < html.index("<h2>What was gained")
-
-
 def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
     order = {
         "text": "0.5 h: test a metal reference specimen, 25 Hz.",
@@ -160,15 +155,6 @@ def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
     assert (
         "What to test next" not in invented and "<h2>The data: reconstructed, not measured</h2>" in invented
     )
-
-
-def test_the_report_opens_with_pictures(page, tmp_path):
-    html = assemble("mine", page(), [], tmp_path.glob("*.rst"))
-    assert html.index("data:image/png") < html.index('<div class="card">')
-
-
-def test_no_cause_where_none_is_named(page):
-    assert page(ladder=[], verdict="nothing_to_explain")["causes"] == []
 
 
 def test_entries_stand_in_their_parts_by_number_with_captions(page, tmp_path):

@@ -2,143 +2,149 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.patches import Circle, Polygon, Rectangle
+from matplotlib.patches import Ellipse, Polygon, Rectangle
 
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.geometry import read_shape
 from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.measurements.tension import Cylinder
-from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.reporting.figures import beam, cylinder, style
+from asphalt_nscd.reporting.figures import style
 
 RECEDING = np.array([0.5, 0.3])  # how a length across the specimen shows in (a)
-BENT = 0.13  # deflection of the head in (b), of the height
-FACES = {"front": "#d9dde2", "side": "#b4bcc6", "head": "#eceef1"}
-ARROW = {"arrowstyle": "<->", "lw": 0.5, "shrinkA": 0.0, "shrinkB": 0.0, "mutation_scale": 5.0}
+BENT = 0.13  # deflection in (b), of the height
+TILT = 0.22  # height over width of the ends of a cylinder
+FRONT, SIDE, END = "#d9dde2", "#b4bcc6", "#eceef1"
+LINE: dict[str, Any] = {"edgecolor": style.INK, "lw": 0.8, "joinstyle": "round"}
+
+
+@dataclass(frozen=True)
+class _Drawing:
+    """A specimen from the front [m]: widths at foot and head, height, depth, and what is written and held in (b).
+
+    lengths: symbol, value and (x, z) in widths of the foot and heights; said: text by level in heights. held: levels of
+    plates that rest; driven: levels of those that move, along the axis if not `bends`.
+    """
+
+    widths: tuple[float, float]
+    height: float
+    depth: float
+    lengths: list[tuple[str, float, float, float]]
+    said: list[tuple[float, str]]
+    held: list[float]
+    driven: list[float]
+    bends: bool = True
+
+
+def _drawing(shape: Any, amplitude: float) -> _Drawing:
+    drive = rf"$z = A\,\sin\,\omega t$,  $A$ = {1e6 * amplitude:.3g} µm"
+    mass = (0.5, f"specimen $M$ = {shape.mass:g} kg")
+    moved = f"mobile mass $m$ = {shape.mobile_mass:g} kg"
+    if isinstance(shape, Cylinder):
+        lengths = [("d", shape.d, 0.0, 1.0), ("h", shape.h, -0.62, 0.5)]
+        said = [(1.12, drive), (0.9, f"upper plate: driven,\n{moved}"), mass, (0.0, "lower plate: fixed")]
+        return _Drawing((shape.d, shape.d), shape.h, 0.0, lengths, said, [0.0], [1.0], bends=False)
+    if isinstance(shape, Beam):
+        inner = shape.plates[1].height / shape.h
+        lengths = [("L", shape.h, -0.8, 0.5), ("H", shape.depth, 0.0, -0.06), ("B", shape.breadth, 0.7, 0.05)]
+        said = [
+            (1.0, "outer clamps: held,\nfree to turn"),
+            (inner, f"inner clamps: {drive}"),
+            mass,
+            (1.0 - inner, moved),
+        ]
+        widths = (shape.depth, shape.depth)
+        driven = [inner, 1.0 - inner]
+        return _Drawing(widths, shape.h, shape.breadth, lengths, said, [0.0, 1.0], driven)
+    lengths = [("B", shape.B, 0.0, -0.06), ("b", shape.b, 0.0, 1.14), ("e", shape.e, 0.6, 0.02)]
+    lengths.append(("h", shape.h, -0.65, 0.5))
+    said = [(1.12, drive), (1.0, "head: driven in translation,\nfree to rotate"), (0.8, moved), mass]
+    said.append((0.0, "foot: clamped"))
+    return _Drawing((shape.B, shape.b), shape.h, shape.e, lengths, said, [0.0], [1.0])
 
 
 @style.journal
 def draw(study: list[Path]) -> Figure:
     """Draw (a) the dimensions and (b) the scheme of the test of a study's simulated specimen."""
     content = read_json(only_file(study, "study"))
-    geometry = read_shape(content["specimens"]["geometry"])
+    shape = read_shape(content["specimens"]["geometry"])
+    made = _drawing(shape, content["test"]["amplitude_m"])
     figure, (left, right) = style.new_figure(
         style.WIDE, 88.0, columns=2, gridspec_kw={"width_ratios": (1.0, 1.5)}
     )
     for axes in (left, right):
         axes.set_aspect("equal")
         axes.set_axis_off()
-        axes.set_ylim(-0.13 * geometry.h, 1.2 * geometry.h)
-    amplitude = content["test"]["amplitude_m"]
-    if isinstance(geometry, Cylinder):
-        cylinder.dimensions(left, geometry)
-        cylinder.scheme(right, geometry, amplitude)
-    elif isinstance(geometry, Beam):
-        beam.dimensions(left, geometry)
-        beam.scheme(right, geometry, amplitude)
-    else:
-        assert isinstance(geometry, Geometry)
-        _dimensions(left, geometry)
-        _test(right, geometry, amplitude)
+        axes.set_ylim(-0.13 * made.height, 1.2 * made.height)
+    _solid(left, made)
+    _scheme(right, made, shape)
     style.letter(left, "a", "dimensions")
-    style.letter(right, "b", "two-point bending" if geometry.test == "bending" else geometry.test)
+    style.letter(right, "b", "two-point bending" if shape.test == "bending" else shape.test)
     return figure
 
 
-def _front(geometry: Geometry) -> np.ndarray:
+def _front(made: _Drawing) -> np.ndarray:
     """Corners of the front face [m], foot first, counter-clockwise."""
-    b, B, h = geometry.b, geometry.B, geometry.h
-    return np.array([[-B / 2, 0.0], [B / 2, 0.0], [b / 2, h], [-b / 2, h]])
+    (foot, head), h = made.widths, made.height
+    return np.array([[-foot / 2, 0.0], [foot / 2, 0.0], [head / 2, h], [-head / 2, h]])
 
 
-def _dimensions(axes: Axes, geometry: Geometry) -> None:
-    front, back = _front(geometry), geometry.e * RECEDING
-    faces = {
-        "front": front,
-        "side": np.array([front[1], front[1] + back, front[2] + back, front[2]]),
-        "head": np.array([front[3], front[2], front[2] + back, front[3] + back]),
-    }
-    for name, corners in faces.items():
+def _solid(axes: Axes, made: _Drawing) -> None:
+    front, back = _front(made), made.depth * RECEDING
+    if made.depth:
         axes.add_patch(
-            Polygon(corners, facecolor=FACES[name], edgecolor=style.INK, lw=0.8, joinstyle="round")
+            Polygon([front[1], front[1] + back, front[2] + back, front[2]], facecolor=SIDE, **LINE)
         )
-    down, aside = np.array([0.0, -0.035 * geometry.h]), np.array([0.03 * geometry.h, 0.0])
-    _dimension(axes, front[0] + down, front[1] + down, ("B", geometry.B), (0.0, -7.0))
-    _dimension(axes, front[3] + back - down, front[2] + back - down, ("b", geometry.b), (0.0, 7.0))
-    _dimension(axes, front[1] + aside, front[1] + back + aside, ("e", geometry.e), (28.0, -5.0))
-    foot = np.array([front[0, 0], 0.0]) - aside
-    _dimension(axes, foot, foot + [0.0, geometry.h], ("h", geometry.h), (-7.0, 0.0), rotation=90.0)
-    axes.set_xlim(front[0, 0] - 6.0 * aside[0], front[1, 0] + back[0] + 9.0 * aside[0])
-
-
-def _dimension(
-    axes: Axes,
-    start: np.ndarray,
-    end: np.ndarray,
-    measure: tuple[str, float],
-    offset: tuple[float, float],
-    rotation: float = 0.0,
-) -> None:
-    axes.annotate("", tuple(start), xytext=tuple(end), arrowprops=ARROW, annotation_clip=False)
-    axes.annotate(
-        f"${measure[0]}$ = {1e3 * measure[1]:g} mm",
-        tuple((start + end) / 2.0),
-        xytext=offset,
-        rotation=rotation,
-        textcoords="offset points",
-        ha="center",
-        va="center",
-        annotation_clip=False,
+        axes.add_patch(Polygon([front[3], front[2], front[2] + back, front[3] + back], facecolor=END, **LINE))
+    axes.add_patch(Polygon(front, facecolor=FRONT, **LINE))
+    if not made.depth:
+        width = made.widths[0]
+        for z, face in ((0.0, FRONT), (made.height, END)):
+            axes.add_patch(
+                Ellipse((0.0, z), width, TILT * width, facecolor=face, edgecolor=style.INK, lw=0.8)
+            )
+    for symbol, length, x, z in made.lengths:
+        upright = 90.0 if x < 0.0 else 0.0
+        place = (x * made.widths[0] + back[0] * (x > 0.0), z * made.height)
+        words = f"${symbol}$ = {1e3 * length:g} mm"
+        axes.text(*place, words, ha="left" if x > 0.0 else "center", va="center", rotation=upright)
+    axes.set_xlim(
+        -0.9 * made.widths[0], 0.7 * made.widths[0] + back[0] + 0.25 * made.height * bool(made.depth)
     )
 
 
-def _test(axes: Axes, geometry: Geometry, amplitude: float) -> None:
-    h, b, B = geometry.h, geometry.b, geometry.B
-    z = np.linspace(0.0, h, 60)
-    half, bent = 0.5 * (B - (B - b) * z / h), BENT * h * geometry.line(z)
-    axes.add_patch(Polygon(_front(geometry), facecolor=FACES["front"], edgecolor=style.INK, lw=0.8))
-    axes.plot(
-        np.concatenate([bent - half, (bent + half)[::-1]]),
-        np.concatenate([z, z[::-1]]),
-        color=style.BLUE,
-        lw=0.8,
-        ls=style.DASHES[1],
-    )
-
-    ground = Rectangle((-0.8 * B, -0.05 * h), 1.6 * B, 0.05 * h, facecolor="white", hatch="//////", lw=0.0)
-    ground.set_edgecolor(style.GREY)
-    axes.add_patch(ground)
-    axes.plot([-0.8 * B, 0.8 * B], [0.0, 0.0], color=style.INK, lw=1.2)
-
-    plate, pin = 0.03 * h, 0.018 * h  # thickness, radius
-    axes.add_patch(
-        Rectangle((-0.65 * b, h), 1.3 * b, plate, facecolor=style.GREY, edgecolor=style.INK, lw=0.6)
-    )
-    centre = np.array([0.0, h + plate + pin])
-    axes.add_patch(Circle(tuple(centre), pin, facecolor="white", edgecolor=style.INK, lw=0.8))
+def _scheme(axes: Axes, made: _Drawing, shape: Any) -> None:
+    h, front = made.height, _front(made)
+    axes.add_patch(Polygon(front, facecolor=FRONT, **LINE))
+    z = np.linspace(0.0, h, 80)
+    half = 0.5 * np.interp(z, (0.0, h), made.widths)
+    moved = BENT * h * shape.line(z) if made.bends else 0.0 * z
+    stretched = z if made.bends else (1.0 + 0.5 * BENT) * z
     for side in (-1.0, 1.0):
-        tip = centre + [side * 0.22 * h, 0.0]
-        axes.annotate(
-            "",
-            tuple(tip),
-            xytext=tuple(centre + [side * 1.5 * pin, 0.0]),
-            arrowprops={"arrowstyle": "->", "lw": 0.9},
+        axes.plot(moved + side * half, stretched, color=style.BLUE, lw=0.8, ls=style.DASHES[1])
+    width, thick = made.widths[0], 0.04 * h
+    for level in (*made.held, *made.driven):
+        driven = level in made.driven
+        below = 1.0 if level == 0.0 else 0.0 if level == 1.0 else 0.5
+        plate = Rectangle((-0.7 * width, level * h - below * thick), 1.4 * width, thick, lw=0.6)
+        plate.set(
+            facecolor=style.GREY if driven else "none", edgecolor=style.INK, hatch="" if driven else "////"
         )
-    axes.text(
-        0.0, centre[1] + 2.0 * pin, rf"$z = A\,\sin\,\omega t$,  $A$ = {1e6 * amplitude:g} µm", ha="center"
-    )
-    right = 0.36 * h
-    for level, text in (
-        (1.0 + (plate + pin) / h, "head: driven in translation,\nfree to rotate"),
-        (0.88, f"mobile mass $m$ = {geometry.mobile_mass:g} kg"),
-        (0.5, f"specimen $M$ = {geometry.mass:g} kg"),
-        (0.0, "foot: clamped"),
-    ):
+        axes.add_patch(plate)
+        if driven:
+            along = np.array([0.16 * h, 0.0] if made.bends else [0.0, 0.1 * h])
+            start = np.array([0.72 * width, level * h] if made.bends else [0.0, (level + 0.04) * h])
+            axes.annotate(
+                "", tuple(start + along), xytext=tuple(start), arrowprops={"arrowstyle": "<->", "lw": 0.9}
+            )
+    right = 0.75 * width + 0.2 * h
+    for level, text in made.said:
         axes.text(right, level * h, text, va="center")
-    axes.set_xlim(-0.3 * h, right + 0.60 * h)
+    axes.set_xlim(-0.8 * width, right + 0.65 * h)

@@ -7,15 +7,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from asphalt_nscd.files.store import read_json
-from asphalt_nscd.measurements.tables import averages, only_file, origin_of, read_measured, read_tests
+from asphalt_nscd.measurements.tables import only_file, origin_of, read_measured, read_tests
 from asphalt_nscd.reporting.figures import style
-from asphalt_nscd.reporting.figures.isotherms import APART, AXIS, error_bars
+from asphalt_nscd.reporting.figures.isotherms import panel
 from asphalt_nscd.rheology.laws_io import read_law
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
@@ -41,23 +39,12 @@ def draw(
     of_all: dict[float, Callable[..., np.ndarray]] = {
         t: lambda omega, t=t: spectrum.complex_modulus(omega, t) for t in temperatures
     }
-    for axes, panel, words, tests, lines in zip(
-        panels,
-        "ab",
-        ("as in the paper", "with facets, extended as diagnosed"),
-        (before, after),
-        (burgers, of_all),
-        strict=True,
+    told = ("as in the paper", "with facets, extended as diagnosed")
+    for axes, name, words, tests, lines in zip(
+        panels, "ab", told, (before, after), (burgers, of_all), strict=True
     ):
-        _isotherms(axes, temperatures, tests, data)
-        for temperature, (colour, _) in zip(temperatures, style.series(len(temperatures)), strict=True):
-            if temperature in lines:
-                fine = np.geomspace(frequencies[0], frequencies[-1], 200)
-                phase = np.degrees(np.angle(lines[temperature](2.0 * np.pi * fine)))
-                axes.plot(fine, phase, color=colour, lw=0.7, zorder=1)
-        style.frequency_axis(axes, frequencies)
-        axes.set_ylabel(AXIS[COLUMN])
-        style.letter(axes, panel, words)
+        panel(axes, COLUMN, (tests, data), temperatures, frequencies, lines)
+        style.letter(axes, name, words)
         # A shared axis takes the labels off the upper panel.
         axes.tick_params(labelbottom=True)
     panels[0].set_ylim(bottom=min(0.0, panels[0].get_ylim()[0]))
@@ -69,12 +56,3 @@ def draw(
     ]
     style.isotherm_legends(figure, keys, temperatures)
     return figure
-
-
-def _isotherms(axes: Axes, temperatures: list[float], tests: pd.DataFrame, data: pd.DataFrame) -> None:
-    simulated, reference = averages(tests), averages(data)
-    for temperature, (colour, marker) in zip(temperatures, style.series(len(temperatures)), strict=True):
-        points = simulated[simulated["temperature_C"] == temperature]
-        known = reference[reference["temperature_C"] == temperature]
-        error_bars(axes, COLUMN, known, 1.0 / APART, marker, colour, filled=False)
-        error_bars(axes, COLUMN, points, APART, marker, colour, filled=True)

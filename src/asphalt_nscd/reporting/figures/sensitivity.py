@@ -58,7 +58,12 @@ def figure_of(parameter: str) -> Callable[..., Figure]:
             for factor, (colour, marker) in zip(sorted(cases), style.series(len(cases)), strict=True):
                 dash = "-" if factor == 1.0 else style.DASHES[1 if factor < 1.0 else 2]
                 law_line(
-                    axes, column, _scaled(read_law(law_file), parameter, factor), limits, colour, ls=dash
+                    axes,
+                    column,
+                    _scaled(read_law(law_file), parameter, factor).complex_modulus,
+                    limits,
+                    colour,
+                    ls=dash,
                 )
                 error_bars(axes, column, cases[factor], APART, marker, colour, filled=True)
                 ends.append(cases[factor][column].iloc[-1] * SHOWN_PER_UNIT[column])

@@ -30,7 +30,7 @@ SIZE = 9.0  # points
 PALE = (238, 240, 243)
 # Rows of the answer that a client reads; the others tell the laboratory what to do next.
 FINDINGS = ("Data", "Fault", "Possible fault", "Effect", "Possible effect", "Scatter", "Unexplained")
-DOUBTS = ("Leave out", "Check first")
+DOUBTS = ("Check first",)  # what was left out is a table
 AT_COMMAND_LINE = ("--", ".csv")  # what no client has
 
 
@@ -114,7 +114,7 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf.text_block(value(content["reported"]))
     pdf.set_font(FONT, size=SIZE)
     pdf.text_block(
-        "In brackets: 95 % intervals. All values below are of the mix, without the faults that were named."
+        "In brackets: 95 % intervals. Points: tests as measured. Line and values: the mix, without the faults below."
     )
     pdf.picture(*_pictures(folder, content))
     pdf.heading("|E*| in MPa and phase in ° over temperature and frequency")
@@ -219,7 +219,7 @@ def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
         (specimen, place_name(at), joined([f"{f:g}" for f in hertz]), status, typeset(doubts))
         for (specimen, at, status, doubts), hertz in groups
     ]
-    pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.0, 1.0, 1.2, 1.0, 4.0))
+    pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
 
 
 def _law(pdf: _Report, content: dict[str, Any]) -> None:
