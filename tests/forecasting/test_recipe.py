@@ -179,7 +179,7 @@ def test_a_table_of_a_rheometer_gives_the_law_it_was_drawn_from(content, tmp_pat
     content["binder"] = {"table": "dsr.csv", "poisson": 0.45}
     read = recipe_of(content, tmp_path / "recipe.yaml").binder
     omega = np.array([1e-2, 1.0, 100.0])
-    assert read.complex_modulus(omega, 15.0) == pytest.approx(law.complex_modulus(omega, 15.0), rel=0.01)
+    assert read.complex_modulus(omega, 15.0) == pytest.approx(law.complex_modulus(omega, 15.0), rel=0.02)
 
 
 def test_a_laboratorys_export_is_read_in_its_own_units(content, tmp_path):
@@ -193,9 +193,30 @@ def test_a_laboratorys_export_is_read_in_its_own_units(content, tmp_path):
     read = recipe_of(content, tmp_path / "recipe.yaml")
     omega = np.array([1e-2, 1.0, 100.0])
     assert read.binder.complex_modulus(omega, 15.0) == pytest.approx(
-        law.complex_modulus(omega, 15.0), rel=0.01
+        law.complex_modulus(omega, 15.0), rel=0.02
     )
     assert "goes from 0 to 60 °C: its law is extrapolated at -10 °C" in read.caveat
     del content["temperatures_C"]
     usual = recipe_of(content, tmp_path / "recipe.yaml")
     assert usual.temperature.min() == 0.0 and usual.caveat == ""
+
+
+def test_a_binder_that_flows_is_read_down_to_a_hundred_pascals(content, tmp_path):
+    """A paving grade from 10 to 70 degC: seven decades; told colder, it has the glass of all bitumens."""
+    law = recipe_of(content | {"binder": {"grade": "64-22"}}).binder
+    rows = ["temperature_C,angular_frequency_rad_s,G_Pa,phase_deg"]
+    for t in (10, 22, 34, 46, 58, 70):
+        for w in np.geomspace(0.1, 100, 9):
+            g = law.complex_modulus(np.array([w]), np.array([t]))[0] / 3
+            rows.append(f"{t},{w},{abs(g)},{np.degrees(np.angle(g))}")
+    (tmp_path / "dsr.csv").write_text("\n".join(rows) + "\n")
+    read = recipe_of(
+        content | {"binder": {"table": "dsr.csv"}, "temperatures_C": [20]}, tmp_path / "recipe.yaml"
+    )
+    omega = np.array([1.0, 10.0])
+    for temperature, most in ((15.0, 0.1), (65.0, 0.1), (-5.0, 0.5)):
+        off = np.log(
+            read.binder.complex_modulus(omega, temperature) / law.complex_modulus(omega, temperature)
+        )
+        assert np.abs(off).max() < most
+    assert read.caveat == ""

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import brentq, least_squares
+from scipy.special import expit, logit
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.rheometer import read_rheometer
@@ -21,6 +22,7 @@ GLASSY, RHEOLOGICAL_INDEX = 1e9, 1.8  # Pa; Christensen & Anderson (1992), middl
 SOFTENED = 1300.0  # Pa s: viscosity at the softening point (MEPDG)
 LARGEST_MISFIT = 1.0  # rms of ln G* of a law about its table: more is no binder
 POOR_MISFIT = 0.15  # more than that is told
+LEAST_ABOVE = 5.0  # K of a table above the temperature at which its WLF shift is singular
 LAW_KEYS = {  # of a recipe: our name and unit
     "E00_MPa": ("static_modulus", 1e6),
     "E0_MPa": ("glassy_modulus", 1e6),
@@ -226,16 +228,42 @@ def _measured(path: Path, poisson: float) -> Binder:
     """2S2P1D law with a WLF shift of Young's modulus, E = 2 (1 + nu) G, fitted to the table of a rheometer."""
     temperature, omega, shear = read_rheometer(path)
     known = np.unique(temperature)
-    reference = float(known[known.size // 2])
+    modulus, glassy = 2.0 * (1.0 + poisson) * shear, 2.0 * (1.0 + poisson) * GLASSY
     try:
-        fit = fit_spectrum(omega, temperature, 2.0 * (1.0 + poisson) * shear, reference, Form())
+        start = fit_spectrum(omega, temperature, modulus, float(known[known.size // 2]), Form()).law
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
-    miss = fit.rms_log_residual
+    law, miss = _flowing(start, max(glassy, 1.1 * float(np.abs(modulus).max())), omega, temperature, modulus)
     if miss > LARGEST_MISFIT:
         raise InputError(
             f"{path}: no law of a binder comes nearer to modulus and phase than {100 * miss:.0f} %; check columns and "
             f"units."
         )
     caution = f"The law of the binder misses its table by {100 * miss:.0f} %." if miss > POOR_MISFIT else ""
-    return Binder(fit.law, True, True, caution, (float(known[0]), float(known[-1])))
+    return Binder(law, True, True, caution, (float(known[0]), float(known[-1])))
+
+
+def _flowing(
+    start: Any, glassy: float, omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray
+) -> tuple[TwoS2P1D, float]:
+    """The 2S2P1D law of a liquid of known glassy modulus [Pa], and its root mean square of ln E* about a table.
+
+    Fits of mixes have a static modulus of a millionth of the largest at least, which is that of a hot binder.
+    """
+    reference = start.shift.reference_temperature
+    singular = reference - float(temperature.min()) + LEAST_ABOVE  # K
+
+    def law_of(x: np.ndarray) -> TwoS2P1D:
+        delta, tau, beta, c1, c2 = np.exp(x[:5])
+        h = float(expit(x[5]))
+        shift = WLF(float(c1), singular + float(c2), reference)
+        return TwoS2P1D(0.0, glassy, h * float(expit(x[6])), h, float(delta), float(tau), float(beta), shift)
+
+    def off(x: np.ndarray) -> np.ndarray:
+        away = np.log(law_of(x).complex_modulus(omega, temperature) / modulus)
+        return np.concatenate([away.real, away.imag])
+
+    logs = np.log([start.delta, start.tau, start.beta, start.shift.c1, max(start.shift.c2 - singular, 1.0)])
+    exponents = logit(np.clip([start.h, start.k / start.h], 0.01, 0.99))
+    found = least_squares(off, np.concatenate([logs, exponents]), x_scale="jac")
+    return law_of(found.x), float(np.sqrt(2.0 * (found.fun**2).mean()))
