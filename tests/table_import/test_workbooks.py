@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import statistics
+import struct
 import zipfile
 from itertools import product
 from xml.sax.saxutils import escape
@@ -152,6 +153,45 @@ def test_a_workbook_of_open_document_is_read(tmp_path):
     (tmp_path / "mix").mkdir()
     open_document(tmp_path / "mix/t.ods", long())
     assert held(read_campaign([tmp_path / "mix"])[0]) == TESTS
+
+
+def binary_workbook(path, rows):
+    """A workbook as Excel keeps it in binary; `rows` by their number."""
+
+    def record(kind, data=b""):
+        head = bytes([kind]) if kind < 128 else bytes([kind & 127 | 128, kind >> 7])
+        return head + bytes([len(data) & 127 | 128, len(data) >> 7]) + data
+
+    def text(value):
+        return struct.pack("<I", len(value)) + value.encode("utf-16-le")
+
+    sheet = record(0x81) + record(0x94, struct.pack("<4I", 0, 1, 0, 4)) + record(0x91)
+    for number, row in rows.items():
+        sheet += record(0, struct.pack("<IIHBBBI", number, 0, 300, 0, 0, 0, 0))
+        for column, value in enumerate(row):
+            place = struct.pack("<II", column, 0)
+            cell = (6, text(value)) if isinstance(value, str) else (5, struct.pack("<d", value))
+            sheet += record(cell[0], place + cell[1])
+    sheet += record(0x92) + record(0x82)
+    named = record(0x9C, struct.pack("<II", 0, 1) + text("rId1") + text("Data"))
+    office = "http://schemas.openxmlformats.org"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("xl/worksheets/sheet1.bin", sheet)
+        archive.writestr("xl/workbook.bin", record(0x83) + record(0x8F) + named + record(0x90) + record(0x84))
+        archive.writestr(
+            "xl/_rels/workbook.bin.rels",
+            f'<Relationships xmlns="{office}/package/2006/relationships">'
+            f'<Relationship Id="rId1" Target="worksheets/sheet1.bin" '
+            f'Type="{office}/officeDocument/2006/relationships/worksheet"/></Relationships>',
+        )
+    return path
+
+
+def test_a_binary_workbook_is_read_and_refused_if_a_cell_is_far_away(tmp_path):
+    rows = dict(enumerate(long()))
+    assert held(read_campaign([binary_workbook(tmp_path / "t.xlsb", rows)])[0]) == TESTS
+    far = binary_workbook(tmp_path / "far.xlsb", rows | {1_000_000: [1.0]})
+    refused(read_campaign, [far], names=["far.xlsb", "more than"])
 
 
 def test_one_name_above_several_columns_is_named(tmp_path):

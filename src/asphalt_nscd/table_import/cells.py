@@ -332,6 +332,8 @@ def _other_workbook(path: Path, wanted: str | None) -> _Sheets:
     """Sheets of an ODS, XLS or XLSB file."""
     import python_calamine
 
+    if _has_far_cell(path):
+        raise InputError(f"{path}: {TOO_MANY}")
     with python_calamine.load_workbook(path) as book:
         metadata = [one for one in book.sheets_metadata if one.typ == python_calamine.SheetTypeEnum.WorkSheet]
         found: dict[str, tuple[list[Row], list[str]]] = {}
@@ -345,6 +347,37 @@ def _other_workbook(path: Path, wanted: str | None) -> _Sheets:
             found[name] = [(line, [_cell(one) for one in row]) for line, row in enumerate(cells, start=1)], []
         hidden = {one.name for one in metadata if one.visible != python_calamine.SheetVisibleEnum.Visible}
     return found, hidden
+
+
+def _has_far_cell(path: Path) -> bool:
+    """Whether an XLSB file has a row or a cell beyond what is read, of which calamine aborts for want of room."""
+    if not zipfile.is_zipfile(path):
+        return False
+    with zipfile.ZipFile(path) as archive:
+        parts = [name for name in archive.namelist() if re.fullmatch(r"xl/worksheets/\w+\.bin", name)]
+        return any(_is_far(archive.read(name)) for name in parts)
+
+
+def _is_far(records: bytes) -> bool:
+    """Whether a record of a row (kind 0) or of a cell (1 to 11) of a sheet says a place far away ([MS-XLSB] 2.1.4)."""
+    at = 0
+
+    def number() -> int:
+        nonlocal at
+        value = shift = 0
+        more = True
+        while more and at < len(records):
+            value |= (records[at] & 127) << shift
+            more, at, shift = records[at] > 127, at + 1, shift + 7
+        return value
+
+    while at < len(records):
+        kind, size = number(), number()
+        place = int.from_bytes(records[at : at + 4], "little")
+        if kind < 12 and place > (4 * MOST_COLUMNS if kind else 2 * MOST_ROWS):
+            return True
+        at += size
+    return False
 
 
 def _cell(value: object) -> str:
