@@ -94,7 +94,7 @@ def curves(frames: dict[str, pd.DataFrame], label: str) -> list[str]:
 
 @style.journal
 def _curve(frames: dict[str, pd.DataFrame], label: str, quantity: str) -> str:
-    figure, axes = _new_figure(1.3 * WIDTH, 1.5 * HEIGHT)
+    figure, axes = _new_figure(WIDTH, 1.3 * HEIGHT)
     for n, ((name, rows), (colour, marker)) in enumerate(
         zip(frames.items(), style.kinds(len(frames)), strict=True)
     ):

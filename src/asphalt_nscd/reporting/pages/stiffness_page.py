@@ -31,7 +31,7 @@ def write_page(folder: Path, title: str, answer: str) -> Path:
 
 @style.journal
 def _chart(tests: pd.DataFrame, curve: pd.DataFrame) -> Chart:
-    figure, axes = style.new_figure(1.3 * WIDTH, 1.3 * HEIGHT)
+    figure, axes = style.new_figure(WIDTH, HEIGHT)
     panels.line(axes, "frequency_Hz", "E", curve, style.INK)
     isotherms = sorted(tests["isotherm_C"].unique())
     for at, look in zip(isotherms, style.series(len(isotherms)), strict=True):
