@@ -187,7 +187,7 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
         panels.marked(axes, worst.assign(marks=marks))
         axes.set(xlabel="frequency (Hz)", ylabel="temperature (°C)")
         axes.set_title(
-            f"{specimen_named(str(name))}: phase less phase required (°)", loc="left", fontsize=8.0
+            f"{specimen_named(str(name))}: phase less phase required (°)", loc="left", fontsize=9.0
         )
         plots.append(inline(figure, f"{specimen_named(str(name))}, {counted(len(worst), 'test')}"))
     caption = (
@@ -215,7 +215,7 @@ def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: dict[str, floa
             words = [_condition(row, tests, (name, unit, column, when)) for row in means.to_dict("records")]
             fig_residual_map.panel(axes, means.assign(words=words), quantity, when, scatter)
             axes.set(xlabel="frequency (Hz)", ylabel="temperature (°C)")
-            axes.set_title(f"{name}, {when} ({unit})", loc="left", fontsize=8.5)
+            axes.set_title(f"{name}, {when} ({unit})", loc="left", fontsize=9.0)
             plots.append(inline(figure, f"{name} {when}, {counted(len(means), 'condition')}"))
     frame = f"A frame: beyond {NOTABLE:g} standard deviations of replicates."
     caption = f"Measured less modelled, means over specimens. {frame}"
