@@ -66,7 +66,7 @@ def test_report_has_nothing_to_complain_of(found, browser, tmp_path, width):
         "causes": [("a cause", "Established.")],
         "notes": sentence, "gained": [("error of |E*|, %", "2", "1")], "held_out": None,
         "left_out": [("coldest and warmest", "1.9", "16")], "elsewhere": sentence,
-        "pictures": [b64encode(png()).decode()], "data": "What was measured",
+        "as_table4": "", "pictures": [b64encode(png()).decode()], "data": "What was measured",
     }  # fmt: skip
     entries = [
         Entry(f"{place} Part {place}", tmp_path / name) for place, name in enumerate(("a.png", "t.html"))

@@ -39,7 +39,7 @@ def draw(
     of_all: dict[float, Callable[..., np.ndarray]] = {
         t: lambda omega, t=t: spectrum.complex_modulus(omega, t) for t in temperatures
     }
-    told = ("as in the paper", "with facets, extended as diagnosed")
+    told = ("a Burgers law for each temperature", "one law, with what the diagnosis named")
     for axes, name, words, tests, lines in zip(
         panels, "ab", told, (before, after), (burgers, of_all), strict=True
     ):

@@ -79,7 +79,7 @@ def charts(
     return {chart.name: chart for chart in made}
 
 
-def _new_figure(width: float, height: float) -> tuple[Figure, Any]:
+def page_figure(width: float, height: float) -> tuple[Figure, Any]:
     """A figure [mm] whose letters can be read on a telephone; within `style.journal`."""
     for name in ("axes.labelsize", "legend.fontsize", "xtick.labelsize", "ytick.labelsize"):
         matplotlib.rcParams[name] = 8.5
@@ -94,7 +94,7 @@ def curves(frames: dict[str, pd.DataFrame], label: str) -> list[str]:
 
 @style.journal
 def _curve(frames: dict[str, pd.DataFrame], label: str, quantity: str) -> str:
-    figure, axes = _new_figure(1.3 * WIDTH, 1.5 * HEIGHT)
+    figure, axes = page_figure(WIDTH, 1.3 * HEIGHT)
     for n, ((name, rows), (colour, marker)) in enumerate(
         zip(frames.items(), style.kinds(len(frames)), strict=True)
     ):
@@ -122,7 +122,7 @@ def _legend(figure: Figure, handles: Sequence[Any]) -> None:
 def _law(master: fig_master.Master) -> Chart:
     plots = []
     for quantity, name in (("E", "|E*|"), ("phase", "phase angle")):
-        figure, axes = _new_figure(WIDTH, HEIGHT)
+        figure, axes = page_figure(WIDTH, HEIGHT)
         master.panel(axes, quantity)
         style.isotherm_legends(figure, master.keys("test; hollow: doubtful"), master.isotherms)
         plots.append(inline(figure, f"{name}, {counted(len(master.tests), 'test')}"))
@@ -149,7 +149,7 @@ def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
         ),
         ("|E*|", lambda axes: _by_specimen(axes, tests, looks)),
     ):
-        figure, axes = _new_figure(WIDTH, HEIGHT)
+        figure, axes = page_figure(WIDTH, HEIGHT)
         draw(axes)
         _legend(figure, [panels.key(name, look, filled=True) for name, look in looks.items()])
         plots.append(inline(figure, f"{title}, {counted(len(tests), 'test')}"))
@@ -181,13 +181,13 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
             ["temperature_C", "frequency_Hz"], keep="last"
         )
         worst = worst.sort_values(["temperature_C", "frequency_Hz"]).assign(framed=False)
-        figure, axes = _new_figure(WIDTH, 45.0)
+        figure, axes = page_figure(WIDTH, 45.0)
         panels.cells(axes, worst, norm)
         marks = [_marks(row) for row in worst.to_dict("records")]
         panels.marked(axes, worst.assign(marks=marks))
         axes.set(xlabel="frequency (Hz)", ylabel="temperature (°C)")
         axes.set_title(
-            f"{specimen_named(str(name))}: phase less phase required (°)", loc="left", fontsize=8.0
+            f"{specimen_named(str(name))}: phase less phase required (°)", loc="left", fontsize=9.0
         )
         plots.append(inline(figure, f"{specimen_named(str(name))}, {counted(len(worst), 'test')}"))
     caption = (
@@ -211,11 +211,11 @@ def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: dict[str, floa
     for quantity, (name, unit) in {"E": ("|E*|", "%"), "phase": ("phase", "°")}.items():
         for when in BEFORE_AFTER:
             column = RESIDUALS[quantity].format(when)
-            figure, axes = _new_figure(WIDTH, 45.0)
+            figure, axes = page_figure(WIDTH, 45.0)
             words = [_condition(row, tests, (name, unit, column, when)) for row in means.to_dict("records")]
             fig_residual_map.panel(axes, means.assign(words=words), quantity, when, scatter)
             axes.set(xlabel="frequency (Hz)", ylabel="temperature (°C)")
-            axes.set_title(f"{name}, {when} ({unit})", loc="left", fontsize=8.5)
+            axes.set_title(f"{name}, {when} ({unit})", loc="left", fontsize=9.0)
             plots.append(inline(figure, f"{name} {when}, {counted(len(means), 'condition')}"))
     frame = f"A frame: beyond {NOTABLE:g} standard deviations of replicates."
     caption = f"Measured less modelled, means over specimens. {frame}"

@@ -9,7 +9,7 @@ import pandas as pd
 from asphalt_nscd.files.store import atomic_path
 from asphalt_nscd.reporting.figures import panels, style
 from asphalt_nscd.reporting.figures.numbers import celsius
-from asphalt_nscd.reporting.pages.charts import HEIGHT, WIDTH, Chart, inline, said
+from asphalt_nscd.reporting.pages.charts import HEIGHT, WIDTH, Chart, inline, page_figure, said
 from asphalt_nscd.reporting.pages.diagnosis_page import PAGE
 from asphalt_nscd.reporting.pages.style import filled
 
@@ -31,7 +31,7 @@ def write_page(folder: Path, title: str, answer: str) -> Path:
 
 @style.journal
 def _chart(tests: pd.DataFrame, curve: pd.DataFrame) -> Chart:
-    figure, axes = style.new_figure(1.3 * WIDTH, 1.3 * HEIGHT)
+    figure, axes = page_figure(WIDTH, HEIGHT)
     panels.line(axes, "frequency_Hz", "E", curve, style.INK)
     isotherms = sorted(tests["isotherm_C"].unique())
     for at, look in zip(isotherms, style.series(len(isotherms)), strict=True):
