@@ -144,6 +144,17 @@ def test_one_at_fault_does_not_enlarge_what_is_usual_of_the_others(kind, moved):
     assert careful < 0.6 * laboratory.LABORATORY[kind].size and faulty < 2.0 * careful
 
 
+def test_limits_of_a_careful_laboratory_do_not_grow():
+    """In K, 1/Pa, deg and s, a tenth above what they were in 2026; with fixed sizes the isotherms had 1.5 K."""
+    limits = diagnose(table(3), draws=500).ladder.limits
+    most = {
+        ("temperature_bias", 10.0): 1.05, ("temperature_bias", 15.0): 0.9, ("temperature_bias", 20.0): 0.97,
+        ("loose_clamp", "a"): 2.6e-12, ("loose_clamp", "d"): 2.6e-12, ("phase_offset", None): 0.57,
+        ("channel_delay", None): 3.8e-5, ("moving_mass", None): 0.16, ("self_heating", None): 0.37,
+    }  # fmt: skip
+    assert not {key: limits[key] for key, value in most.items() if limits[key] > value}
+
+
 def test_isotherms_within_the_tolerance_of_the_standard_are_no_fault():
     """Each seems far off by the scatter of the tests alone."""
     found = diagnose(warmed(np.array([0.3, -0.4, 0.2, -0.3, 0.4, -0.2])), draws=500)

@@ -204,6 +204,8 @@ def _meant(logarithm: pd.DataFrame, warm: float, cold: float) -> str:
     """The question for a temperature that lost its minus, or that is in degF, whichever |E*| lies nearer to."""
     level = logarithm.mean(axis=1).groupby(level=0).mean()
     others = level.drop(index=warm)
+    if others.size < LEAST - 1:
+        return f"was -{warm:g} degC meant? " if warm > 0.0 and -warm < cold else ""
     slope, base = np.polyfit(others.to_numpy(), others.index.to_numpy(), 1)
     expected, celsius = base + slope * level[warm], celsius_of_fahrenheit(np.array([warm]))
     options = {f"-{warm:g} degC": -warm} if warm > 0.0 and -warm < cold else {}
