@@ -94,7 +94,9 @@ def test_by_command_and_in_files(tmp_path):
     read = an.read(output)
     assert list(read.history)[:4] == ["time_s", "displacement_m", "force_N", "broken_bonds"]
     export_result(output, "csv", tmp_path / "curve.csv")
-    pd.testing.assert_frame_equal(pd.read_csv(tmp_path / "curve.csv"), read.history, rtol=1e-9)
+    pd.testing.assert_frame_equal(
+        pd.read_csv(tmp_path / "curve.csv"), read.history, rtol=1e-9, check_dtype=False
+    )
     assert read.arrays["frames/displacement_m"].shape[0] == 3 and read.plot() is not None
 
 

@@ -49,9 +49,9 @@ class Failure(Result):
         DataFrame
             One row a step: time_s, displacement_m, force_N, broken_bonds, and energies in J.
         """
-        steps = self.arrays["time_s"].shape
-        names = [name for name, values in self.arrays.items() if values.shape == steps and "/" not in name]
-        return pd.DataFrame({name: self.arrays[name] for name in names if name != "broken"})
+        from asphalt_nscd.packings.outgoing import history
+
+        return history(self.arrays)
 
     def plot(self) -> Figure:
         """Draw force and broken bonds against the displacement of the head.

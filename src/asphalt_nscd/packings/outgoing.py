@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -90,11 +90,18 @@ def _spheres(record: Record, form: str, output: Path) -> None:
 def _test(record: Record, form: str, output: Path) -> str:
     if form == "vtk":
         return _series(record, output)
-    steps = record.arrays["time_s"].shape
-    columns = {name: values for name, values in record.arrays.items() if "/" not in name and name != "broken"}
-    history = {name: values for name, values in columns.items() if values.shape == steps}
-    write_table(output, pd.DataFrame(history))
+    write_table(output, history(record.arrays))
     return f"{output}: {counted(record.arrays['time_s'].size, 'step')} of time, displacement and force of the head."
+
+
+def history(arrays: Mapping[str, NDArray[Any]]) -> pd.DataFrame:
+    """What is there for each step of a test or a ramp: time_s, displacement_m, force_N of the head, then all others."""
+    first = ["time_s", "displacement_m", "force_N"]
+    more = sorted({name for name in arrays if "/" not in name and name != "broken"} - {*first})
+    columns = {name: arrays[name] for name in (*first, *more)}
+    return pd.DataFrame(
+        {n: values for n, values in columns.items() if values.shape == arrays["time_s"].shape}
+    )
 
 
 def _series(record: Record, output: Path) -> str:
