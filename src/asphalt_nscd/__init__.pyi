@@ -13,6 +13,8 @@ from asphalt_nscd.api.forecasting import Forecast as Forecast
 from asphalt_nscd.api.forecasting import forecast as forecast
 from asphalt_nscd.api.laws import Law as Law
 from asphalt_nscd.api.laws import fit as fit
+from asphalt_nscd.api.ramp import Failure as Failure
+from asphalt_nscd.api.ramp import ramp as ramp
 from asphalt_nscd.api.reading import read as read
 from asphalt_nscd.api.specimens import Packing as Packing
 from asphalt_nscd.api.specimens import Specimen as Specimen
@@ -22,6 +24,7 @@ from asphalt_nscd.api.specimens import specimen as specimen
 from asphalt_nscd.bending.further_settings import Cycling as Cycling
 from asphalt_nscd.bending.further_settings import FatigueLaw as FatigueLaw
 from asphalt_nscd.bending.further_settings import Hold as Hold
+from asphalt_nscd.bending.further_settings import Ramp as Ramp
 from asphalt_nscd.bending.rig import Rig as Rig
 from asphalt_nscd.bending.settings import Bonds as Bonds
 from asphalt_nscd.bending.settings import Load as Load

@@ -132,9 +132,9 @@ def test_nonsense_is_refused():
     for wrong, sentence in (
         (
             {"force_N": 1.0, "displacement_m": 1e-6},
-            "give force_N for creep or displacement_m for relaxation, not both",
+            "hold: give force_N or displacement_m",
         ),
-        ({"force_N": 0.0}, "nothing is held"),
+        ({"force_N": 0.0}, "hold: nothing moves"),
         ({"duration_s": 0.0}, "duration_s = 0; give a number at least 1e-06"),
         ({"steps": 5}, "steps = 5; give a number at least 10"),
     ):

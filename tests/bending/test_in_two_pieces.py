@@ -8,7 +8,7 @@ from theory.specimens import QUICK_LAW
 
 from asphalt_nscd.bending import runs
 from asphalt_nscd.bending.bending_test import run_test
-from asphalt_nscd.bending.case import LoadCase
+from asphalt_nscd.bending.case import LoadCase, RunOptions
 from asphalt_nscd.bending.condensing import condensed
 from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.bending.rig import Rig
@@ -46,7 +46,7 @@ def test_all_bonds_across_a_section_and_no_fewer_part_it(make_beam, test, share)
 def test_a_test_ends_once_a_fifth_of_the_bonds_broke_though_it_is_whole(make_beam):
     beam = model(make_beam, Beam.test)
     full = runs._full_stepper(
-        beam, QUICK_LAW, 5e-4, CondensedState.rest_state(beam.system, QUICK_LAW), HeadDevices()
+        beam, QUICK_LAW, 5e-4, CondensedState.rest_state(beam.system, QUICK_LAW), HeadDevices(), RunOptions()
     )
     every_sixth = list(range(0, beam.bonds, 6))
     full.on_break(every_sixth)

@@ -231,7 +231,7 @@ def bend(
     numerics = numerics or Numerics.usual(frequency_Hz, given.geometry)
     followed = law.of_bonds(frequency_Hz, temperature_C).bonds
     test = Test(
-        *outcome(_model(_Once(given), bonds), followed, temperature_C, case, numerics, options), given.name
+        *outcome(model_in_memory(given, bonds), followed, temperature_C, case, numerics, options), given.name
     )
     doubts = [idle_option_note(bonds, given.bonded.area), unsettled(test.attributes)]
     if test.broken_bonds:
@@ -293,7 +293,7 @@ def hold(
     given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
     law = law if isinstance(law, Law) else Law.read(law)
     lowest, highest = held.band
-    table = of_hold(_model(_Once(given), bonds), law.of_bonds(lowest, temperature_C, highest).bonds, held)
+    table = of_hold(model_in_memory(given, bonds), law.of_bonds(lowest, temperature_C, highest).bonds, held)
     _warn([idle_option_note(bonds, given.bonded.area), coarse(table)])
     return table
 
@@ -373,6 +373,24 @@ class _Once:
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, _Once) and self.specimen is other.specimen
+
+
+def model_in_memory(specimen: Specimen, bonds: Bonds) -> Model:
+    """The specimen condensed; of the last ones the same again.
+
+    Parameters
+    ----------
+    specimen : Specimen
+        Bonded spheres.
+    bonds : Bonds
+        What they are beside their law.
+
+    Returns
+    -------
+    Model
+        Ready for tests.
+    """
+    return _model(_Once(specimen), bonds)
 
 
 @lru_cache(maxsize=MODELS_KEPT)

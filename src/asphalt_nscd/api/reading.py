@@ -78,9 +78,10 @@ def read(
             return Diagnosis.read(path)
         if path.suffix.lower() in (".h5", ".hdf5"):
             from asphalt_nscd.api.bending import Test
+            from asphalt_nscd.api.ramp import Failure
             from asphalt_nscd.api.specimens import Packing, Specimen
 
-            kinds = {one.kind: one for one in (Packing, Specimen, Test)}
+            kinds = {result.kind: result for result in (Packing, Specimen, Test, Failure)}
             kind = kind_of(path)
             if kind not in kinds:
                 raise InputError(f"{path}: holds {kind!r}; give a file with one of {', '.join(kinds)}.")

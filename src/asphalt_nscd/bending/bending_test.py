@@ -264,7 +264,7 @@ def outcome(
     if record.frames:
         times = record.time[case.framed(numerics, options.frames)]
         arrays |= {
-            f"{FRAMES}/{name}": values for name, values in _framed(model.whole, times, record.frames).items()
+            f"{FRAMES}/{name}": values for name, values in framed(model.whole, times, record.frames).items()
         }
     return arrays, columns
 
@@ -277,7 +277,7 @@ def _modulus(shape: Shape, frequency: float, response: Response) -> complex:
     )
 
 
-def _framed(model: Model, times: np.ndarray, frames: Sequence[runs.Frame]) -> dict[str, np.ndarray]:
+def framed(model: Model, times: np.ndarray, frames: Sequence[runs.Frame]) -> dict[str, np.ndarray]:
     """Spheres and bonds as they stand, and in single precision what they do at each time (f,) [s]."""
     n = model.spheres
 

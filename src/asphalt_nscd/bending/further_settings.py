@@ -1,4 +1,4 @@
-"""What a user sets of a hold, a fall and fatigue. No numpy, for the command line asks it."""
+"""What a user sets of a hold, a ramp, a fall and fatigue. No numpy, for the command line asks it."""
 
 from __future__ import annotations
 
@@ -17,6 +17,18 @@ if TYPE_CHECKING:
 MOST_STEPS_OF_FALL = 1_000_000  # of some milliseconds each
 MILLION = 1e6  # cycles, to which epsilon6 refers
 STRAINS = Range(low=1e-8, high=0.1)
+
+
+def _require_one(name: str, force: float | None, displacement: float | None) -> None:
+    if force is not None and displacement is not None:
+        raise InputError(f"{name}: give force_N or displacement_m, that of what is commanded.")
+    if 0.0 in (force, displacement):
+        raise InputError(f"{name}: nothing moves; give a force or a displacement other than zero.")
+
+
+def _band(duration: float, time_step: float) -> tuple[float, float]:
+    """Frequencies [Hz] 1 / (2 pi t) at the last and at the first time t [s]."""
+    return 0.5 / math.pi / duration, 0.5 / math.pi / time_step
 
 
 @dataclass(frozen=True)
@@ -52,10 +64,7 @@ class Hold(Ranged):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.force_N is not None and self.displacement_m is not None:
-            raise InputError("hold: give force_N for creep or displacement_m for relaxation, not both.")
-        if 0.0 in (self.force_N, self.displacement_m):
-            raise InputError("hold: nothing is held; give a force or a displacement other than zero.")
+        _require_one("hold", self.force_N, self.displacement_m)
 
     @property
     def time_step(self) -> float:
@@ -77,7 +86,68 @@ class Hold(Ranged):
         tuple of float
             [Hz]: 1 / (2 pi t) at the last and at the first time t.
         """
-        return 0.5 / math.pi / self.duration_s, 0.5 / math.pi / self.time_step
+        return _band(self.duration_s, self.time_step)
+
+
+@dataclass(frozen=True)
+class Ramp(Ranged):
+    """How a specimen is pulled or pushed at constant speed until it fails, and on.
+
+    Parameters
+    ----------
+    duration_s : float
+        How long, s.
+    steps : int
+        Equal time steps; the curve and the order of breaks get finer with them.
+    displacement_m : float, optional
+        Displacement of the head at the end, m. The default, at 20 amplitudes of usual tests.
+    force_N : float, optional
+        Force at the end, N: it is commanded, and the record ends where the specimen is in two pieces.
+    frames : int
+        Instants to keep with all spheres and bonds, for ParaView.
+
+    Raises
+    ------
+    InputError
+        For force and displacement together, or a zero.
+
+    Examples
+    --------
+    >>> Ramp(duration_s=0.1, steps=500).time_step
+    0.0002
+    """
+
+    duration_s: float = option(default=0.1, low=1e-6, high=1e9)
+    steps: int = option(default=400, low=10, high=MOST_STEPS)
+    displacement_m: float | None = option(default=None, low=-1.0, high=1.0)
+    force_N: float | None = option(default=None, low=-1e9, high=1e9)
+    frames: int = option(default=0, low=0, high=10_000)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _require_one("ramp", self.force_N, self.displacement_m)
+
+    @property
+    def time_step(self) -> float:
+        """Length of a step.
+
+        Returns
+        -------
+        float
+            [s].
+        """
+        return self.duration_s / self.steps
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Frequencies that a law must hold for.
+
+        Returns
+        -------
+        tuple of float
+            [Hz]: 1 / (2 pi t) at the last and at the first time t.
+        """
+        return _band(self.duration_s, self.time_step)
 
 
 @dataclass(frozen=True)

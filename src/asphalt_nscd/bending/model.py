@@ -73,8 +73,8 @@ class Model:
         """Coordinates of velocity to means over the layers (k, l)."""
         return (self.layers.mean @ self.basis).T
 
-    def require_whole(self, broken: Sequence[int]) -> None:
-        """Refuse a specimen in two pieces: where no path of the bonds that are left joins all plates."""
+    def is_whole(self, broken: Sequence[int]) -> bool:
+        """Whether a path of the bonds that are left joins all plates."""
         left = np.ones(self.bonds, bool)
         left[broken] = False
         plates = len(self.geometry.plates)
@@ -82,7 +82,11 @@ class Model:
         plate = clusters(self.shape["first"][left], self.shape["second"][left], self.spheres + plates)[
             -plates:
         ]
-        if (plate != plate[0]).any():
+        return bool((plate == plate[0]).all())
+
+    def require_whole(self, broken: Sequence[int]) -> None:
+        """Refuse a specimen in two pieces."""
+        if not self.is_whole(broken):
             raise InputError(
                 f"{self.name}: the specimen is in two pieces, {len(broken)} of {counted(self.bonds, 'bond')} broke; "
                 "lower the amplitude or raise the strength of the bonds."

@@ -5,7 +5,7 @@ Sparse matrices are imported where a run needs them: importing them takes as lon
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, cast
 
@@ -13,21 +13,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.bending.case import LoadCase, RunOptions
-from asphalt_nscd.bending.layers import Layers
 from asphalt_nscd.bending.settings import Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.nscd.bonds.head import HeadDevices
-from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.bonds.law import AnyLaw, BondLaw
 from asphalt_nscd.nscd.stepping.reduced_stepping import FullSystemNeeded, ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
 
 if TYPE_CHECKING:
     from asphalt_nscd.bending.excerpt import ModelExcerpt
     from asphalt_nscd.bending.model import Model
-    from asphalt_nscd.nscd.bonds.head import HeadDevices
     from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
-    from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
+    from asphalt_nscd.nscd.stepping.integrator import March
 
 Vector = NDArray[np.float64]
 Details = dict[str, float | int]
@@ -60,7 +58,8 @@ class Histories:
 
     `force` (n,) of the actuator in N; `velocity` (n, l), means of the layers, in m/s; `broken` in the order of
     breaking; `full_steps` were made by the full system. `residual` is that of the full equations,
-    of "sweeps" the relative change of the last sweep, and NaN if not checked.
+    of "sweeps" the relative change of the last sweep, and NaN if not checked. `ended` says why a run to failure is
+    shorter than asked.
     """
 
     force: Vector
@@ -69,6 +68,7 @@ class Histories:
     residual: float = np.nan
     details: Details = field(default_factory=dict)
     full_steps: int = 0
+    ended: str = ""
     frames: list[Frame] = field(default_factory=list)
 
 
@@ -82,9 +82,13 @@ def reduced(
     """
     if numerics.scheme == "euler" and not (options.energy or options.frames):
         return path_run(model, law, case.rig, numerics.time_step, case.driven(numerics), options)
+    from asphalt_nscd.nscd.stepping.integrator import March
+
     # a two-step scheme is an implicit Euler step of length dt / a from an extrapolated state
-    stepper = _reduced_stepper(model.whole, law, numerics.time_step / _scheme(case, numerics).a, case.rig)
-    return _certified(stepper, model, _one_by_one(stepper, model.whole, law, (case, numerics), options))
+    scheme = _scheme(case, numerics)
+    stepper = _reduced_stepper(model.whole, law, numerics.time_step / scheme.a, case.rig)
+    run = _follow(March(stepper, scheme, law, numerics.time_step), model.whole, case, numerics, options)
+    return _certified(stepper, model, run)
 
 
 def path_run(
@@ -97,7 +101,23 @@ def path_run(
 ) -> Histories:
     """Follow any path of the actuator in one call; `driven` (n,) in m at the ends of steps of `time_step` in s."""
     stepper = _reduced_stepper(model, law, time_step, devices)
-    return _certified(stepper, model, _run_whole_path(stepper, model, law, driven, options))
+    layers = model.along
+    try:
+        force, coordinates = stepper.run(driven)
+        run = Histories(force, coordinates @ layers, stepper.state.broken)
+    except FullSystemNeeded as accepted:
+        from asphalt_nscd.nscd.stepping.integrator import March
+
+        # the full system goes on from where the last accepted step ended
+        done = accepted.force.size
+        place = float(driven[done - 1]) if done else 0.0
+        full = _full_stepper(model.whole, law, time_step, stepper.full_state(), devices, options)
+        march = March(full, Scheme(), law, time_step, place, account=False)
+        run = march_along(march, model.whole, driven[done:], options, small=stepper)
+        run.force = np.concatenate([accepted.force, run.force])
+        run.velocity = np.concatenate([accepted.velocity @ layers, run.velocity])
+    options.progress(driven.size, driven.size)
+    return _certified(stepper, model, run)
 
 
 def _certified(stepper: ReducedStepper, model: Model | ModelExcerpt, run: Histories) -> Histories:
@@ -120,22 +140,25 @@ def condensed(
 ) -> Histories:
     """Follow the actuator by the full system, its bonds condensed, with the energy account."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedState
+    from asphalt_nscd.nscd.stepping.integrator import March
 
-    state = CondensedState.rest_state(model.system, law)
-    dt = numerics.time_step / _scheme(case, numerics).a
-    stepper = _full_stepper(model, law, dt, state, case.rig)
-    return _one_by_one(stepper, model, law, (case, numerics), options)
+    state, scheme = CondensedState.rest_state(model.system, law), _scheme(case, numerics)
+    stepper = _full_stepper(model, law, numerics.time_step / scheme.a, state, case.rig, options)
+    return _follow(March(stepper, scheme, law, numerics.time_step), model, case, numerics, options)
 
 
 def sweeps(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions) -> Histories:
     """Follow the actuator by Gauss-Seidel on the bonds, as in the paper; bonds do not break."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedState
     from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
+    from asphalt_nscd.nscd.stepping.integrator import March
 
     state = CondensedState.rest_state(model.system, law)
     tolerance, most = numerics.tolerance, numerics.most_sweeps
     stepper = SweepingStepper(model.system, law, numerics.time_step, state, tolerance, most)
-    run = _follow(stepper, np.concatenate([[0.0], case.driven(numerics)]), model.layers, options)
+    run = _follow(
+        March(stepper, Scheme(), law, numerics.time_step, account=False), model, case, numerics, options
+    )
     run.residual = stepper.largest_change
     run.details = {"sweeps": stepper.sweeps, "tolerance": tolerance, "most_sweeps": most}
     return run
@@ -155,25 +178,27 @@ def _reduced_stepper(
 
 def _full_stepper(
     model: Model,
-    law: BondLaw,
+    law: AnyLaw,
     dt: float,
     state: CondensedState,
     devices: HeadDevices,
-    actuator: float = 0.0,
-    options: RunOptions = RunOptions(),
+    options: RunOptions,
 ) -> CondensedStepper:
     """Steps the full system until the specimen is in two pieces, or fails by the shares of the options."""
     from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
 
     def check_broken(broken: Sequence[int]) -> None:
+        # a commanded force would throw what is loose
+        if options.to_failure and not devices.clamp_compliance:
+            return
         model.require_whole(broken)
-        if len(broken) > options.most_broken * model.bonds:
+        if not options.to_failure and len(broken) > options.most_broken * model.bonds:
             raise InputError(
                 f"{model.name}: the specimen fails, {len(broken)} of {counted(model.bonds, 'bond')} broke; lower the "
                 "load or raise the strength of the bonds."
             )
 
-    stepper = CondensedStepper(model.system, law, dt, state, devices, actuator)
+    stepper = CondensedStepper(model.system, law, dt, state, devices)
 
     def check_closed(touching: Sequence[int]) -> None:
         # hundreds of contacts at once take half a minute a step
@@ -187,93 +212,68 @@ def _full_stepper(
     return stepper
 
 
-def _run_whole_path(
-    stepper: ReducedStepper, model: Model | ModelExcerpt, law: BondLaw, driven: Vector, options: RunOptions
-) -> Histories:
-    layers = model.along
-    try:
-        force, coordinates = stepper.run(driven)
-        run = Histories(force, coordinates @ layers, stepper.state.broken)
-    except FullSystemNeeded as accepted:
-        whole, done = model.whole, accepted.force.size
-        state = stepper.full_state()
-        # the full system goes on from where the last accepted step ended
-        path = np.concatenate([[0.0], driven])[done:]
-        full = _full_stepper(whole, law, stepper.dt, state, stepper.devices, path[0], options)
-        rest = _follow(full, path, whole.layers, options, lambda: stepper.certify(full))
-        force = np.concatenate([accepted.force, rest.force])
-        velocity = np.concatenate([accepted.velocity @ layers, rest.velocity])
-        run = Histories(force, velocity, state.broken, full_steps=driven.size - done)
-    options.progress(driven.size, driven.size)
-    return run
-
-
-def _follow(
-    stepper: CondensedStepper | SweepingStepper,
-    path: Vector,
-    layers: Layers,
-    options: RunOptions,
-    check: Callable[[], None] = lambda: None,
-) -> Histories:
-    """Steps of the full system along the actuator's displacements (n + 1,) [m]; `check` is called after each."""
-    steps = path.size - 1
-    run = _empty(steps, layers)
-    velocity = np.diff(path) / stepper.dt
-    for n in range(steps):
-        run.force[n] = stepper.advance(velocity[n])
-        run.velocity[n] = layers.mean @ stepper.state.velocity
-        check()
-        if n % 20 == 19:
-            options.progress(n + 1, steps)
-    return run
-
-
-def _one_by_one(
-    stepper: ReducedStepper | CondensedStepper,
-    model: Model,
-    law: BondLaw,
-    what: tuple[LoadCase, Numerics],
-    options: RunOptions,
-) -> Histories:
-    """Steps of any scheme with their energy account, from rest."""
-    from asphalt_nscd.nscd.stepping.integrator import March
-
-    case, numerics = what
-    driven, layers = case.driven(numerics), model.layers
-    march = March(stepper, _scheme(case, numerics), law, numerics.time_step)
-    run = _empty(driven.size, layers)
-    small = stepper if isinstance(stepper, ReducedStepper) else None
+def _follow(march: March, model: Model, case: LoadCase, numerics: Numerics, options: RunOptions) -> Histories:
+    """Make the steps of a test one by one."""
     framed = set((numerics.rest_steps + case.framed(numerics, options.frames)).tolist())
-    along = np.empty((0, 0)) if small is None else layers.mean @ small.model.basis
-    for n in range(driven.size):
+    return march_along(march, model, case.driven(numerics), options, framed)
+
+
+def march_along(
+    march: March,
+    model: Model,
+    path: Vector,
+    options: RunOptions,
+    framed: Container[int] = (),
+    small: ReducedStepper | None = None,
+    after: Callable[[], None] = lambda: None,
+) -> Histories:
+    """Steps that end with the actuator along `path` (n,) [m]; those in `framed` are kept whole; `after` follows each.
+
+    The full system takes over where the reduced one cannot go on; `small`, reduced, certifies what that does.
+    """
+    layers = model.layers
+    run = Histories(np.empty(path.size), np.empty((path.size, layers.height.size)))
+    if isinstance(march.stepper, ReducedStepper):
+        small, along = march.stepper, layers.mean @ march.stepper.model.basis
+    for n, place in enumerate(path):
         try:
-            run.force[n] = march.move_to(driven[n])
-        except FullSystemNeeded:
-            assert small is not None, "the full system makes every step"
-            state = small.full_state()
-            march.go_on_with(_full_stepper(model, law, stepper.dt, state, case.rig))
-            # the refused step left the state before it: the full system makes it
-            run.force[n] = march.move_to(driven[n])
-        if small is None:
-            run.velocity[n] = layers.mean @ stepper.state.velocity
-        elif march.stepper is small:
+            run.force[n] = _step(march, place, model, options)
+            if small is not None and march.stepper is not small:
+                small.certify(cast("CondensedStepper", march.stepper))
+                run.full_steps += 1
+            after()
+        except (InputError, ArithmeticError) as error:
+            if not options.to_failure:
+                raise
+            run.ended, run.force, run.velocity = str(error), run.force[:n], run.velocity[:n]
+            break
+        state = march.stepper.state
+        if march.stepper is small:
             # a break or an enrichment has widened the basis
             if small.model.basis.shape[1] != along.shape[1]:
                 along = layers.mean @ small.model.basis
-            run.velocity[n] = along @ small.state.velocity
+            run.velocity[n] = along @ state.velocity
         else:
-            full = cast("CondensedStepper", march.stepper)
-            small.certify(full)
-            run.velocity[n] = layers.mean @ full.state.velocity
-            run.full_steps += 1
+            run.velocity[n] = layers.mean @ state.velocity
         if n in framed:
-            moving = march.stepper
-            state = moving.full_state() if isinstance(moving, ReducedStepper) else moving.state
-            run.frames.append(Frame.of(model, state))
-        options.progress(n + 1, driven.size)
-    run.broken, run.details = march.stepper.state.broken, march.account.sums.columns()
+            full = small.full_state() if small is not None and march.stepper is small else state
+            run.frames.append(Frame.of(model, cast("CondensedState", full)))
+        if n % 20 == 19 or n + 1 == path.size:
+            options.progress(n + 1, path.size)
+    run.broken = list(march.stepper.state.broken)
+    if march.accounts:
+        run.details = march.account.sums.columns()
     return run
 
 
-def _empty(steps: int, layers: Layers) -> Histories:
-    return Histories(np.empty(steps), np.empty((steps, layers.height.size)))
+def _step(march: March, place: float, model: Model, options: RunOptions) -> float:
+    """Force [N] of a step, by the full system where the reduced one refuses it."""
+    try:
+        return march.move_to(place)
+    except FullSystemNeeded:
+        small = march.stepper
+        assert isinstance(small, ReducedStepper), "the full system makes every step"
+        # the refused step left the state before it: the full system makes it
+        state = small.full_state()
+        march.go_on_with(_full_stepper(model, march.law, small.dt, state, small.devices, options))
+        return march.move_to(place)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +17,7 @@ from asphalt_nscd.nscd.bonds.strength import utilisations
 from asphalt_nscd.packings.vtk_files import require_vtk, write_poly_data, write_series
 from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN
 
-TEST, FALL = "test", "fall"
+TEST, FALL, RAMP = "test", "fall", "ramp"
 FRAMES = "frames/"  # what a test keeps of all spheres and bonds, on request
 FORMS = {"vtk": ".vtp", "csv": ".csv"}
 SERIES = ".pvd"  # for a test or a fall as vtk
@@ -38,7 +38,7 @@ def export_result(source: str | Path, form: str, output: str | Path) -> str:
     kind = kind_of(source)
     if kind not in _WRITERS:
         raise InputError(f"{source}: holds {kind!r}; give a file with one of {', '.join(_WRITERS)}.")
-    ending = SERIES if kind in (TEST, FALL) and form == "vtk" else FORMS[form]
+    ending = SERIES if kind in (TEST, FALL, RAMP) and form == "vtk" else FORMS[form]
     if output.suffix.lower() != ending:
         raise InputError(f"{output}: a {kind} of format {form} ends in {ending}; rename the output.")
     return _WRITERS[kind](load(source, kind), form, output)
@@ -90,9 +90,18 @@ def _spheres(record: Record, form: str, output: Path) -> None:
 def _test(record: Record, form: str, output: Path) -> str:
     if form == "vtk":
         return _series(record, output)
-    history = {name: record.arrays[name] for name in ("time_s", "displacement_m", "force_N")}
-    write_table(output, pd.DataFrame(history))
+    write_table(output, history(record.arrays))
     return f"{output}: {counted(record.arrays['time_s'].size, 'step')} of time, displacement and force of the head."
+
+
+def history(arrays: Mapping[str, NDArray[Any]]) -> pd.DataFrame:
+    """What is there for each step of a test or a ramp: time_s, displacement_m, force_N of the head, then all others."""
+    first = ["time_s", "displacement_m", "force_N"]
+    more = sorted({name for name in arrays if "/" not in name and name != "broken"} - {*first})
+    columns = {name: arrays[name] for name in (*first, *more)}
+    return pd.DataFrame(
+        {n: values for n, values in columns.items() if values.shape == arrays["time_s"].shape}
+    )
 
 
 def _series(record: Record, output: Path) -> str:
@@ -177,5 +186,6 @@ _WRITERS: dict[str, Callable[[Record, str, Path], str]] = {
     DEPOSIT: _deposit,
     SPECIMEN: _specimen,
     TEST: _test,
+    RAMP: _test,
     FALL: _fall,
 }

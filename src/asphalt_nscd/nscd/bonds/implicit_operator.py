@@ -41,10 +41,11 @@ class ShiftedOperator:
     def __init__(self, system: BondedSystem, scale: float | np.ndarray) -> None:
         """scale: dt/S [kg/m], one for all bonds or for each of their components (3 b,)."""
         self._system, self._scale = system, np.broadcast_to(scale, system.weight.shape)
+        self._operator = system.operator[:, system.free]
         self._broken: list[int] = []
-        self._taken: np.ndarray
-        self._response: np.ndarray
         self._strength: np.ndarray
+        self._rows: sparse.csr_matrix
+        self._capacitance: np.ndarray
         self._factorise()
 
     def remove(self, broken: list[int]) -> None:
@@ -61,27 +62,39 @@ class ShiftedOperator:
             self._broken.append(bond)
             self._take_away(bond)
 
+    def release(self, impulse: np.ndarray) -> np.ndarray:
+        """What an impulse (3,) of the bond last removed does to the solution (f,), without another solve."""
+        if not self._strength.size:  # factorised without it
+            return self._factor.solve(self._operator[3 * self._broken[-1] + np.arange(3)].T @ impulse)
+        own = self._responses[:, -3:] @ impulse
+        return np.asarray(own + self._responses @ (self._capacitance @ (self._rows @ own)))
+
     def _take_away(self, bond: int) -> None:
         rows = 3 * bond + np.arange(3)
-        taken = self._system.operator[rows][:, self._system.free].toarray().T
-        self._taken = np.column_stack([self._taken, taken])
-        self._response = np.column_stack([self._response, self._factor.solve(taken)])
+        taken, count = self._operator[rows], self._strength.size
+        self._response[:, count : count + 3] = self._factor.solve(taken.T.toarray())
+        self._rows = sparse.vstack([self._rows, taken], format="csr")
         self._strength = np.append(self._strength, self._scale[rows] * self.weight[rows])
         self.weight[rows] = 0.0
-        self._capacitance = np.linalg.inv(np.diag(1.0 / self._strength) - self._taken.T @ self._response)
+        self._capacitance = np.linalg.inv(np.diag(1.0 / self._strength) - self._rows @ self._responses)
+
+    @property
+    def _responses(self) -> np.ndarray:
+        """(f, 3 n) of the bonds removed since the factorisation."""
+        return self._response[:, : self._strength.size]
 
     def solve(self, force: np.ndarray) -> np.ndarray:
         """Solution for forces (f,) or (f, columns) on the free degrees of freedom, of the same shape."""
         solution = self._solve_once(force)
         if self._strength.size:  # the update cancels digits where bodies become nearly loose
-            taken = (self._taken * self._strength) @ (self._taken.T @ solution)
+            taken = self._rows.T @ ((self._strength * (self._rows @ solution).T).T)
             solution += self._solve_once(force - self._matrix @ solution + taken)
         return solution
 
     def _solve_once(self, force: np.ndarray) -> np.ndarray:
         solution = self._factor.solve(force)
         if self._strength.size:
-            solution += self._response @ (self._capacitance @ (self._taken.T @ solution))
+            solution += self._responses @ (self._capacitance @ (self._rows @ solution))
         return solution
 
     def _factorise(self) -> None:
@@ -92,5 +105,6 @@ class ShiftedOperator:
         matrix = (sparse.diags_array(system.mass) + system.stiffness(self._scale * self.weight)).tocsc()
         self._matrix = matrix[system.free][:, system.free]
         self._factor, self._factored = factorise(self._matrix, system), len(self._broken)
-        self._taken = self._response = np.empty((system.free.size, 0))
-        self._strength, self._capacitance = np.empty(0), np.empty((0, 0))
+        # by columns, and room for all that may be removed: a bond more copies nothing
+        self._response = np.empty((system.free.size, 3 * self.most_updates), order="F")
+        self._rows, self._strength = self._operator[:0], np.empty(0)

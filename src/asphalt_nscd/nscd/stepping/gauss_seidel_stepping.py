@@ -45,6 +45,10 @@ class SweepingStepper:
         """The bonds (b,) in the order of a sweep forth; the next one goes back."""
         return self._bonds.visits
 
+    def move(self, start: float, end: float) -> float:
+        """Driving force [N] in one step, in which the head moves from `start` to `end` [m]."""
+        return self.advance((end - start) / self.dt)
+
     def advance(self, driven_velocity: float) -> float:
         """Driving force [N] in one step at this velocity of the driven degree of freedom [m/s]."""
         system, state, dt = self.system, self.state, self.dt

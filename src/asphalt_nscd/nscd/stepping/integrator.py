@@ -5,19 +5,29 @@ from __future__ import annotations
 from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.stepping.condensed import CondensedStepper
 from asphalt_nscd.nscd.stepping.energy import EnergyAccount
+from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import History, Scheme
 
-Stepper = CondensedStepper | ReducedStepper
+Stepper = CondensedStepper | ReducedStepper | SweepingStepper
 
 
 class March:
-    """Steps from rest by any scheme, with the energy account; the stepper's step length is dt / scheme.a [s]."""
+    """Steps by any scheme from a stepper's state, at rest for the energy account; its steps are dt / scheme.a [s]."""
 
-    def __init__(self, stepper: Stepper, scheme: Scheme, law: AnyLaw, dt: float) -> None:
-        self.stepper, self.scheme, self.dt = stepper, scheme, dt
-        self.now = self.earlier = History.of(stepper.state, 0.0)
-        self.account = EnergyAccount(law)
+    def __init__(
+        self,
+        stepper: Stepper,
+        scheme: Scheme,
+        law: AnyLaw,
+        dt: float,
+        actuator: float = 0.0,
+        account: bool = True,
+    ) -> None:
+        """actuator: where it stands [m]; account: whether to keep that of energy, in `account`."""
+        self.stepper, self.scheme, self.law, self.dt = stepper, scheme, law, dt
+        self.now = self.earlier = History.of(stepper.state, actuator)
+        self.account, self.accounts = EnergyAccount(law), account
 
     def move_to(self, actuator: float) -> float:
         """Force [N] of the actuator in one step, which ends with it at `actuator` [m].
@@ -36,7 +46,8 @@ class March:
         base = base.widened(stepper.state)
         self._widen()
         after = History.of(stepper.state, actuator)
-        self.account.count(stepper, self.dt, force, self.now, base, after)
+        if self.accounts:
+            self.account.count(stepper, self.dt, force, self.now, base, after)
         self.earlier, self.now = self.now, after
         return force
 
