@@ -37,7 +37,7 @@ def predictions(mechanisms: Mechanisms) -> dict[str, complex]:
 
 
 def table(mechanisms: Mechanisms) -> pd.DataFrame:
-    """A row for each test and mechanism: what was measured, what is predicted, and whether one contradicts the other."""
+    """A row for each test and mechanism: measured, predicted, and whether one contradicts the other."""
     rows = []
     for test, (modulus, modulus_error, phase, phase_error) in MEASURED.items():
         for name, change in predictions(mechanisms).items():

@@ -12,7 +12,7 @@ from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.save import save_figure
 
 TITLES = {"ncat": "nine states, NCAT Test Track", "mixes50": "25 mixes, NCHRP 1-40D"}
-PARTS = {"reading": style.ORANGE, "contacts": style.BLUE, "softening": style.GREEN}
+PARTS = {"reading": style.ORANGE, "contacts": style.BLUE, "softening": style.GREY}
 
 
 @style.journal
