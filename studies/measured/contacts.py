@@ -97,7 +97,9 @@ class Stones:
         """One test of a mix of this |E*| [Pa] with its contacts stuck; `pressed`: pressure [Pa] and friction."""
         omega, prism = 2.0 * np.pi * FREQUENCY, self.contents.prism.geometry
         chain, _ = kelvin_chain(
-            lambda w: FILM * (1j * w / omega) ** exponent, omega / (3.0 * programme.cycles), 3.0 * omega
+            lambda w: np.asarray(FILM * (1j * w / omega) ** exponent, complex),
+            omega / (3.0 * programme.cycles),
+            3.0 * omega,
         )
         law, skeleton = bond_law(chain), self.skeleton(*pressed)
         size = prism.h / (prism.width * prism.thickness)  # modulus over stiffness

@@ -9,6 +9,7 @@ of full size, pressed from rest as machines do; grains and films change it by th
 """
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -21,6 +22,7 @@ from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.rheology.as_run import Programme
 from asphalt_nscd.rheology.burgers import Burgers
+from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.fitting import fit_burgers
 from asphalt_nscd.rheology.spectrum import Spectrum, parameters
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
@@ -34,15 +36,16 @@ UNREAD = "burgers", "one_law", "phase_offset"  # rungs that say nothing of how a
 STEADY = Programme(haversine=False, cycles=10, read=5, drift=True)
 ROUNDS = 3  # of the fit of a law to what is read of it
 LARGEST = -0.1, 0.2  # rad: an offset of -6 to 11 degrees
+Bonds = Callable[[np.ndarray, float], KelvinChain]  # the chain around omega at a temperature
 Change = Callable[[Spectrum, np.ndarray, np.ndarray], np.ndarray]  # of ln E*, likewise
 
 
 class Fit(NamedTuple):
-    """What a rung says is measured, its number of parameters, the law, and what changes it beside the test."""
+    """What a rung says is measured, its number of parameters, the law of its bonds, and what changes it beside."""
 
     modulus: Modulus
     fitted: int
-    law: Modulus
+    bonds: Bonds
     beside: Modulus = lambda omega, temperature: np.ones(omega.size)
 
 
@@ -55,14 +58,13 @@ def burgers(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> 
     laws = [fit_burgers(omega[temperature == t], modulus[temperature == t]).law for t in at]
     logarithms = np.log([list(parameters(law).values()) for law in laws])
 
-    def law(omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
-        values = [
-            Burgers(*np.exp([_line(t, at, column) for column in logarithms.T])).complex_modulus(w)
-            for w, t in zip(omega, temperature, strict=True)
-        ]
-        return np.array(values)
+    def law_at(temperature: float) -> Burgers:
+        return Burgers(*np.exp([_line(temperature, at, column) for column in logarithms.T]))
 
-    return Fit(law, 4 * at.size, law)
+    def law(omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
+        return np.array([law_at(t).complex_modulus(w) for w, t in zip(omega, temperature, strict=True)])
+
+    return Fit(law, 4 * at.size, lambda omega, temperature: law_at(temperature).kelvin_form())
 
 
 def _line(place: float, at: np.ndarray, values: np.ndarray) -> float:
@@ -82,7 +84,7 @@ def spectrum(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) ->
 def one_law(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> Fit:
     """The same, as a function of omega and temperature."""
     law, fitted = spectrum(omega, temperature, modulus)
-    return Fit(law.complex_modulus, fitted, law.complex_modulus)
+    return Fit(law.complex_modulus, fitted, partial(chain_at, law.complex_modulus))
 
 
 def as_tested(changes: Sequence[Change]) -> Rung:
@@ -102,7 +104,7 @@ def as_tested(changes: Sequence[Change]) -> Rung:
         law, fitted = spectrum(omega, temperature, modulus)
         for _ in range(ROUNDS):
             law, _ = spectrum(omega, temperature, modulus / read(omega, temperature))
-        return Fit(seen, fitted, law.complex_modulus, beside)
+        return Fit(seen, fitted, partial(chain_at, law.complex_modulus), beside)
 
     return rung
 
@@ -112,16 +114,16 @@ def phase_offset(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray
 
     def misfit(offset: float) -> float:
         turned = modulus * np.exp(-1j * offset)
-        law = one_law(omega, temperature, turned).law
+        law = one_law(omega, temperature, turned).modulus
         return float((np.abs(np.log(turned / law(omega, temperature))) ** 2).sum())
 
     offset = float(minimize_scalar(misfit, bounds=LARGEST, method="bounded", options={"xatol": 1e-4}).x)
-    _, fitted, law = one_law(omega, temperature, modulus * np.exp(-1j * offset))
+    law, fitted, bonds, _ = one_law(omega, temperature, modulus * np.exp(-1j * offset))
     turned = np.exp(1j * offset)
     return Fit(
         lambda omega, temperature: law(omega, temperature) * turned,
         fitted + 1,
-        law,
+        bonds,
         lambda omega, temperature: np.full(omega.size, turned),
     )
 
@@ -187,7 +189,7 @@ def shown_by(cylinder: ModelExcerpt, fit: Fit, programme: Programme) -> Modulus:
         shown = np.empty(omega.size, complex)
         for value in np.unique(temperature):
             at = np.flatnonzero(temperature == value)
-            chain = chain_at(fit.law, omega[at], value)
+            chain = fit.bonds(omega[at], value)
             for k in at:
                 shown[k] = modulus_of_cylinder(cylinder, chain, omega[k] / (2.0 * np.pi), programme)
         return shown * fit.beside(omega, temperature)

@@ -11,7 +11,7 @@ from asphalt_nscd.nscd.bonds.head import HeadDevices
 from asphalt_nscd.rheology.as_run import Programme
 from asphalt_nscd.rheology.chain import KelvinChain
 
-STEPS = 20  # of implicit Euler between two samples of the record
+STEPS = 60  # of implicit Euler between two samples of the record
 
 
 def modulus_of_cylinder(

@@ -25,7 +25,7 @@ FALL = 0.05  # of |G*| at the limit
 BINDER = np.geomspace(1e3, 2e9, 60)  # E [Pa] of binders
 SLOPES = np.linspace(0.02, 0.7, 18)
 SLIGHT = 0.01  # b, for a derivative at none
-CYCLE = {"cycles": 10, "read": 5, "drift": True, "samples": 60}
+TESTS = {name: Programme(name == "haversine", drift=True, samples=60) for name in ("haversine", "pulled")}
 
 
 def binders(recipe: str | Path, packings: str | Path) -> pd.DataFrame:
@@ -49,8 +49,7 @@ def clock() -> pd.DataFrame:
     rows = []
     for slope in SLOPES:
         row = {"slope": slope}
-        for name, haversine in (("haversine", True), ("pulled", False)):
-            programme = Programme(haversine=haversine, **CYCLE)
+        for name, programme in TESTS.items():
             change = np.log(_read(slope, SLIGHT, programme) / _read(slope, 0.0, programme)) / SLIGHT
             row |= {f"{name}_lnE": change.real, f"{name}_deg": np.degrees(change.imag)}
         rows.append(row)

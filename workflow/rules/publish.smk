@@ -47,7 +47,7 @@ PUBLISHED = {
             *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png", "provenance.json"),
             *("contacts.csv", "binder.csv", "clock.csv", "amplitude.csv"),
         ],
-        {"measured_means": "means.csv", "excess_budget": "budget.csv", "amplitude": "amplitude.csv"},
+        {"measured_means": "means.csv", "excess_budget": "budget.csv", "measured_amplitude": "amplitude.csv"},
     ),
     "publish_verification": Published(
         "verification",

@@ -293,7 +293,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             figures=3,
         )
     ],
-    "amplitude": [
+    "measured_amplitude": [
         Layout(
             {
                 "test": "test",
