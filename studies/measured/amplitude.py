@@ -13,8 +13,8 @@ import pandas as pd
 
 from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.store import write_table
-from studies.measured.contacts import SEVERAL
 from studies.measured.mechanisms import Mechanisms
+from studies.measured.stated import SEVERAL
 
 MIX = 6e9 * np.exp(1j * np.radians(28.0))  # Pa, at 20 degC and 10 Hz: that of the uniaxial tests
 PER = 100e-6  # of strain

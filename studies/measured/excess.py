@@ -19,9 +19,9 @@ from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.rheology.priors import prior_of
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
-from studies.measured.contacts import AMPLITUDES
 from studies.measured.mechanisms import Mechanisms, excess_of
 from studies.measured.reading import log_reading
+from studies.measured.stated import AMPLITUDES
 
 SCATTER = 0.02, np.radians(0.4)  # of ln|E*| and phase of one test, as usual in the nine NCAT campaigns
 LEAST = 3  # frequencies of an isotherm

@@ -26,10 +26,10 @@ from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.fitting import fit_burgers
 from asphalt_nscd.rheology.spectrum import Spectrum, parameters
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
-from studies.measured.contacts import AMPLITUDES
 from studies.measured.mechanisms import Mechanisms
 from studies.measured.reading import PROGRAMME, Modulus, chain_at, log_reading
 from studies.measured.simulated import modulus_of_cylinder
+from studies.measured.stated import AMPLITUDES
 
 REFERENCE = 20.0  # degC
 UNREAD = "burgers", "one_law", "phase_offset"  # rungs that say nothing of how a test is read

@@ -1,51 +1,9 @@
 # Measured mixes: laws of them, and the phase that no law explains beside what a machine reads of a haversine, grains that
-# slip and films that soften. Eight CPU minutes of simulated contacts, fifteen in all. On request:
+# slip and films that soften. Eight CPU minutes. On request:
 #   snakemake measured --cores all --configfile config/paper.yaml
 
 MIXES = sorted(f"data/ncat/{path.name}" for path in (CLONE / "data/ncat").glob("*_*.csv"))
-MECHANISMS = {name: f"results/measured/{name}.csv" for name in ("contacts", "binder", "clock")}
-
-
-rule measured_contacts:
-    """Stones of the forecast that touch, open and slip, over modulus and phase of a mix; no mix is looked at."""
-    input:
-        recipe=RECIPE,
-        packings="results/forecast/packings",
-        code=studied("measured.contacts"),
-    output:
-        MECHANISMS["contacts"],
-    log:
-        "results/measured/logs/contacts.log",
-    benchmark:
-        "<results>/benchmarks/measured_contacts.tsv"
-    conda:
-        ENVIRONMENT
-    threads: 4
-    message:
-        "Press stones that touch"
-    script:
-        "../../studies/measured/contacts.py"
-
-
-rule measured_softening:
-    """Binders by the published limit of their linear strain, and a clock that runs faster under stress."""
-    input:
-        recipe=RECIPE,
-        packings="results/forecast/packings",
-        code=studied("measured.softening"),
-    output:
-        binder=MECHANISMS["binder"],
-        clock=MECHANISMS["clock"],
-    log:
-        "results/measured/logs/softening.log",
-    benchmark:
-        "<results>/benchmarks/measured_softening.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Soften binder films"
-    script:
-        "../../studies/measured/softening.py"
+MECHANISMS = {name: f"studies/measured/predictions/{name}.csv" for name in ("contacts", "binder", "clock")}
 
 
 rule measured_amplitude:
@@ -155,6 +113,6 @@ RECORDED["measured"] = (
     "measured",
     [
         *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png"),
-        *("contacts.csv", "binder.csv", "clock.csv", "amplitude.csv"),
+        "amplitude.csv",
     ],
 )

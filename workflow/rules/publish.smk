@@ -45,7 +45,7 @@ PUBLISHED = {
         "measured",
         [
             *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png", "provenance.json"),
-            *("contacts.csv", "binder.csv", "clock.csv", "amplitude.csv"),
+            "amplitude.csv",
         ],
         {"measured_means": "means.csv", "excess_budget": "budget.csv", "measured_amplitude": "amplitude.csv"},
     ),
