@@ -1,9 +1,10 @@
-"""The excess phase of measured mixes, and how much of it is the machine's reading of a haversine that drifts.
+"""The excess phase of measured mixes, and how much of it three mechanisms explain.
 
 Nothing is fitted to a phase. One 2S2P1D law is fitted to the |E*| of a mix alone, with usual values of its parameters
-as a prior. The reading is what a machine makes of that law, exactly (`reading.py`). What is measured is the phase above
-what |E*| of the same isotherm requires (Kramers and Kronig), without a law. It is not blind: both populations were in
-sight when the mechanism was thought of.
+as a prior. The reading is what a machine makes of that law, exactly (`reading.py`); grains that slip and films that
+soften change it by tables that were fixed before they were laid beside a mix (`mechanisms.py`). What is measured is the
+phase above what |E*| of the same isotherm requires (Kramers and Kronig), without a law. The reading is not blind: both
+populations were in sight when it was thought of.
 """
 
 from pathlib import Path
@@ -18,24 +19,40 @@ from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.rheology.priors import prior_of
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
+from studies.measured.mechanisms import Mechanisms, excess_of
 from studies.measured.reading import log_reading
+from studies.measured.stated import AMPLITUDES
 
 SCATTER = 0.02, np.radians(0.4)  # of ln|E*| and phase of one test, as usual in the nine NCAT campaigns
 LEAST = 3  # frequencies of an isotherm
 NO_PHASE = 1e3  # rad, as its standard deviation in a fit: it counts for nothing
 REFERENCE = 20.0  # degC
+USUAL_AMPLITUDE = 50e-6
 
 
-def readings(means: list[tuple[float, pd.DataFrame]]) -> list[np.ndarray]:
-    """Phase [deg] that the machine adds at each frequency of each isotherm, by a law of |E*| alone."""
+PARTS = "reading", "contacts", "softening"
+UNLIKELY = 2.0  # standard errors
+
+
+def predictions(
+    means: list[tuple[float, pd.DataFrame]], mechanisms: Mechanisms, amplitude: float
+) -> list[dict[str, np.ndarray]]:
+    """Excess [deg] by each of PARTS at each frequency of each isotherm, by a law of |E*| alone."""
     temperature = np.concatenate([np.full(len(at), value) for value, at in means])
     omega = 2.0 * np.pi * np.concatenate([at.index.to_numpy() for _, at in means])
     modulus = 1e6 * np.exp(np.concatenate([at["log_modulus"] for _, at in means])) + 0j
     law = fit_spectrum(
         omega, temperature, modulus, REFERENCE, prior=prior_of("2s2p1d"), weights=(SCATTER[0], NO_PHASE)
     ).law
-    added = np.degrees(log_reading(law, omega, temperature).imag)
-    return [added[temperature == value] for value, _ in means]
+    of_law = law.complex_modulus(omega, temperature)
+    reading = np.degrees(log_reading(law, omega, temperature).imag)
+    changes = mechanisms.contacts(of_law, amplitude), mechanisms.softening(of_law, amplitude)
+    parts = []
+    for value, at in means:
+        own = temperature == value
+        excesses = [excess_of(at.index.to_numpy(), of_law[own], change[own]) for change in changes]
+        parts.append(dict(zip(PARTS, [reading[own], *excesses], strict=True)))
+    return parts
 
 
 def isotherms(table: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
@@ -51,11 +68,12 @@ def isotherms(table: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
     return found
 
 
-def excess(population: str, mix: str, table: pd.DataFrame) -> pd.DataFrame:
+def excess(population: str, mix: str, table: pd.DataFrame, mechanisms: Mechanisms) -> pd.DataFrame:
     """One row for each test condition of a mix; `table` has temperature_C, frequency_Hz, E_MPa and phase_deg."""
     parts = []
     means = isotherms(table)
-    for (temperature, at), reading in zip(means, readings(means), strict=True):
+    predicted = predictions(means, mechanisms, AMPLITUDES.get(population, USUAL_AMPLITUDE))
+    for (temperature, at), own in zip(means, predicted, strict=True):
         frequency, log_modulus, phase, count = (
             at.index.to_numpy(),
             at["log_modulus"].to_numpy(),
@@ -76,7 +94,7 @@ def excess(population: str, mix: str, table: pd.DataFrame) -> pd.DataFrame:
                     "frequency_Hz": frequency,
                     "measured_deg": np.degrees(phase - required.phase),
                     "standard_error_deg": np.degrees(np.hypot(required.std_error, phase_scatter)),
-                    "reading_deg": reading,
+                    **{f"{name}_deg": values for name, values in own.items()},
                     "isotherm_deg": np.degrees(whole[0]),
                     "isotherm_standard_error_deg": np.degrees(whole[1]),
                 }
@@ -86,34 +104,51 @@ def excess(population: str, mix: str, table: pd.DataFrame) -> pd.DataFrame:
 
 
 def budget(table: pd.DataFrame) -> pd.DataFrame:
-    """By population and isotherm: mean excess over the mixes, what the reading explains, and what a constant would."""
-    by_mix = table.groupby(["population", "temperature_C", "mix"])[["isotherm_deg", "reading_deg"]].mean()
+    """By population and isotherm: mean excess over the mixes, what each part and a constant explain, a verdict.
+
+    "explained": the parts leave less than a constant fitted to this isotherm would, and a mean within UNLIKELY standard
+    errors of zero; "in part": they take a quarter of the root mean square or more; else "not".
+    """
+    parts = [f"{name}_deg" for name in PARTS]
+    by_mix = table.groupby(["population", "temperature_C", "mix"])[["isotherm_deg", *parts]].mean()
     rows = []
     for (population, temperature), group in by_mix.groupby(level=[0, 1]):
-        measured, reading = group["isotherm_deg"], group["reading_deg"]
+        measured, summed = group["isotherm_deg"], group[parts].sum(axis=1)
         several = len(group) > 2
-        rows.append(
-            {
-                "population": population,
-                "temperature_C": temperature,
-                "mixes": len(group),
-                "measured_deg": measured.mean(),
-                "standard_error_deg": measured.sem() if several else np.nan,
-                "reading_deg": reading.mean(),
-                "correlation": measured.corr(reading) if several else np.nan,
-                "rms_deg": np.sqrt((measured**2).mean()),
-                "rms_less_reading_deg": np.sqrt(((measured - reading) ** 2).mean()),
-                "rms_less_mean_deg": measured.std(ddof=0),
-            }
-        )
+        left = measured - summed
+        row = {
+            "population": population,
+            "temperature_C": temperature,
+            "mixes": len(group),
+            "measured_deg": measured.mean(),
+            "standard_error_deg": measured.sem() if several else np.nan,
+            **group[parts].mean(),
+            "sum_deg": summed.mean(),
+            "correlation": measured.corr(summed) if several else np.nan,
+            "rms_deg": _rms(measured),
+            **{f"rms_less_{name}_deg": _rms(measured - group[f"{name}_deg"]) for name in PARTS},
+            "rms_less_all_deg": _rms(left),
+            "rms_less_mean_deg": measured.std(ddof=0),
+        }
+        if row["rms_less_all_deg"] < row["rms_less_mean_deg"] and abs(left.mean()) < UNLIKELY * left.sem():
+            row["verdict"] = "explained"
+        else:
+            row["verdict"] = "in part" if row["rms_less_all_deg"] <= 0.75 * row["rms_deg"] else "not"
+        rows.append(row)
     return pd.DataFrame(rows)
+
+
+def _rms(values: pd.Series) -> float:
+    return float(np.sqrt((values**2).mean()))
 
 
 def run(job: Any) -> None:
     """excess.csv and budget.csv of the nine NCAT mixes and of those of data/mixes50."""
-    parts = [excess("ncat", Path(path).stem, pd.read_csv(path, comment="#")) for path in job.input.ncat]
+    mechanisms = Mechanisms(job.input)
+    tables = [("ncat", Path(path).stem, pd.read_csv(path, comment="#")) for path in job.input.ncat]
     mixes = pd.read_csv(job.input.mixes, comment="#").groupby("mix")
-    parts += [excess("mixes50", str(mix), rows) for mix, rows in mixes]
+    tables += [("mixes50", str(mix), rows) for mix, rows in mixes]
+    parts = [excess(*what, mechanisms) for what in tables]
     table = pd.concat(parts, ignore_index=True)
     write_table(job.output.excess, table)
     write_table(job.output.budget, budget(table))

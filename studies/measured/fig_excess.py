@@ -1,4 +1,4 @@
-"""The excess phase of measured mixes by temperature, beside the reading of a drifting haversine: two populations."""
+"""The excess phase of measured mixes by temperature, and its parts one on another: two populations."""
 
 from pathlib import Path
 from typing import Any
@@ -12,11 +12,12 @@ from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.save import save_figure
 
 TITLES = {"ncat": "nine states, NCAT Test Track", "mixes50": "25 mixes, NCHRP 1-40D"}
+PARTS = {"reading": style.ORANGE, "contacts": style.BLUE, "softening": style.GREY}
 
 
 @style.journal
 def draw(excess: Path, budget: Path) -> Figure:
-    """Draw (a) the NCAT states and (b) the 25 mixes: each mix, mean with its standard error, and the reading."""
+    """Draw (a) the NCAT states and (b) the 25 mixes: each mix, mean with its standard error, and the parts."""
     points, means = pd.read_csv(excess), pd.read_csv(budget)
     figure, panels = style.new_figure(style.WIDE, 70.0, columns=2)
     for axes, panel, (population, title) in zip(panels, "ab", TITLES.items(), strict=True):
@@ -37,14 +38,11 @@ def _panel(axes: Axes, points: pd.DataFrame, means: pd.DataFrame) -> None:
     several = means[means["mixes"] > 2]
     look: dict[str, Any] = {"color": style.INK, "marker": "o", "lw": 0.8, "label": "mean, its standard error"}
     axes.errorbar(several["temperature_C"], several["measured_deg"], several["standard_error_deg"], **look)
-    axes.plot(
-        several["temperature_C"],
-        several["reading_deg"],
-        color=style.ORANGE,
-        marker="s",
-        lw=0.8,
-        label="reading of a haversine, nothing fitted",
-    )
+    below = 0.0 * several["reading_deg"]
+    for name, color in PARTS.items():
+        above = below + several[f"{name}_deg"]
+        axes.fill_between(several["temperature_C"], below, above, color=color, alpha=0.5, lw=0.0, label=name)
+        below = above
 
 
 def run(job: Any) -> None:

@@ -515,3 +515,18 @@ def test_a_specimen_may_be_called_anything(delayed):
     assert instructions.instructions(found)["orders"]
     assert spell_cause("loose_clamp @ 21") == "loose clamp of specimen 21"
     assert spell_cause("temperature_bias @ 21.0") == "temperature bias at 21 degC"
+
+
+@pytest.mark.parametrize(
+    ("test_type", "excess", "asked"),
+    [("tension-compression", 1.5, 1), ("bending", 1.5, 0), ("tension-compression", 0.5, 0)],
+)
+def test_two_strains_are_asked_for_where_a_haversine_has_an_excess_phase(test_type, excess, asked):
+    done = replace(table(4), test_type=test_type)
+    at = float(done.isotherms[1])
+    found = [{"temperature_C": at, "excess_deg": excess, "standard_error_deg": 0.3}]
+    orders = fixed_orders.strains(done, Costs(), found)
+    assert [(order["temperature_C"], order["specimens"]) for order in orders] == asked * [
+        (at, [done.names[0]])
+    ]
+    assert all("25 and 75 microstrain" in order["act"] for order in orders)

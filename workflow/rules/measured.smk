@@ -1,13 +1,56 @@
-# Measured mixes: laws of them, and the phase that no law explains beside what a machine reads of a haversine. On request:
+# Measured mixes: laws of them, and the phase that no law explains beside what a machine reads of a haversine, grains that
+# slip and films that soften. Eight CPU minutes. On request:
 #   snakemake measured --cores all --configfile config/paper.yaml
 
 MIXES = sorted(f"data/ncat/{path.name}" for path in (CLONE / "data/ncat").glob("*_*.csv"))
+MECHANISMS = {name: f"studies/measured/predictions/{name}.csv" for name in ("contacts", "binder", "clock")}
+
+
+rule measured_amplitude:
+    """What a larger strain does, measured by two laboratories and predicted."""
+    input:
+        **MECHANISMS,
+        code=studied("measured.amplitude"),
+    output:
+        "results/measured/amplitude.csv",
+    log:
+        "results/measured/logs/amplitude.log",
+    benchmark:
+        "<results>/benchmarks/measured_amplitude.tsv"
+    conda:
+        ENVIRONMENT
+    message:
+        "Lay the mechanisms beside tests at several strains"
+    script:
+        "../../studies/measured/amplitude.py"
+
+
+rule measured_cylinder:
+    """A cylinder of full size with facets, for the laws of all mixes."""
+    input:
+        code=studied("measured.cylinder"),
+    output:
+        model="results/measured/cylinder.h5",
+        excerpt="results/measured/cylinder_excerpt.h5",
+    log:
+        "results/measured/logs/cylinder.log",
+    benchmark:
+        "<results>/benchmarks/measured_cylinder.tsv"
+    conda:
+        ENVIRONMENT
+    message:
+        "Pour a cylinder of full size"
+    script:
+        "../../studies/measured/cylinder.py"
 
 
 rule measured_ladder:
-    """Burgers laws, one law, that law as it is read: in sample, and of what was left out. Three minutes."""
+    """Burgers laws, one law, that law as it is tested: in sample, of what was left out, and simulated. Five minutes."""
     input:
+        **MECHANISMS,
         mixes=MIXES,
+        model=rules.measured_cylinder.output.model,
+        excerpt=rules.measured_cylinder.output.excerpt,
         code=studied("measured.ladder"),
     output:
         ladder="results/measured/ladder.csv",
@@ -25,8 +68,9 @@ rule measured_ladder:
 
 
 rule measured_excess:
-    """By mix, temperature and frequency; and, by population and temperature, what the reading explains."""
+    """By mix, temperature and frequency; and, by population and temperature, what three mechanisms explain."""
     input:
+        **MECHANISMS,
         ncat=MIXES,
         mixes="data/mixes50/modulus.csv",
         code=studied("measured.excess"),
@@ -40,13 +84,13 @@ rule measured_excess:
     conda:
         ENVIRONMENT
     message:
-        "Lay the reading of a haversine beside the excess phase of measured mixes"
+        "Lay three mechanisms beside the excess phase of measured mixes"
     script:
         "../../studies/measured/excess.py"
 
 
 rule fig_excess:
-    """The excess phase by temperature, and the reading."""
+    """The excess phase by temperature, and its parts."""
     input:
         excess="results/measured/excess.csv",
         budget="results/measured/budget.csv",
@@ -67,5 +111,8 @@ rule fig_excess:
 
 RECORDED["measured"] = (
     "measured",
-    ["ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png"],
+    [
+        *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png"),
+        "amplitude.csv",
+    ],
 )

@@ -43,8 +43,11 @@ PUBLISHED = {
     ),
     "publish_measured": Published(
         "measured",
-        ["ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png", "provenance.json"],
-        {"measured_means": "means.csv", "excess_budget": "budget.csv"},
+        [
+            *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png", "provenance.json"),
+            "amplitude.csv",
+        ],
+        {"measured_means": "means.csv", "excess_budget": "budget.csv", "measured_amplitude": "amplitude.csv"},
     ),
     "publish_verification": Published(
         "verification",

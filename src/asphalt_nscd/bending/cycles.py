@@ -25,7 +25,7 @@ from asphalt_nscd.rheology.as_run import Programme
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 
-TOUCHING = 0.005  # of the distance of two centres: a smaller gap in the poured layer is a contact, as in the forecast
+TOUCHING = 0.005  # of the distance of two centres: a smaller gap in the poured layer is a contact
 TOLERANCE = 1e-6  # of the motion of the head: how far an opening may lie from that in balance
 
 

@@ -21,7 +21,7 @@ from asphalt_nscd.diagnosis.observed import repeatability
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.record import measured_limits, report, reported
-from asphalt_nscd.diagnosis.record.instructions import instructions
+from asphalt_nscd.diagnosis.record.instructions import MOST, instructions
 from asphalt_nscd.diagnosis.record.measured_limits import Progress
 from asphalt_nscd.diagnosis.record.trust import reading, trust
 from asphalt_nscd.diagnosis.screening import levels, suspects
@@ -170,6 +170,8 @@ def conclude(
     ahead = fixed_orders.off_target(observed, Costs(), content["reading"].get("off_target", []))
     ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
     content["instructions"] = instructions(diagnosis, ahead=ahead)
+    orders = content["instructions"]["orders"]
+    orders += fixed_orders.strains(observed, Costs(), content["excess_phase"])[: MOST - len(orders)]
     progress("Diagnose", 5, STEPS)
     broken = suspects.broken_isotherms(observed, loo, diagnosis.ladder.torn)
     contradictory: list[dict[str, Any]] = [

@@ -287,8 +287,26 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
                 "left_out_isotherm_phase_percent": "phase ",
                 "left_out_specimen_E_percent": "specimen out: E",
                 "left_out_specimen_phase_percent": "phase  ",
+                "simulated_E_percent": "simulated: E",
+                "simulated_phase_percent": "phase   ",
             },
             figures=3,
+        )
+    ],
+    "measured_amplitude": [
+        Layout(
+            {
+                "test": "test",
+                "mechanism": "mechanism",
+                "measured_E_percent": "E, %",
+                "standard_error_E_percent": "+-",
+                "predicted_E_percent": "predicted",
+                "measured_phase_deg": "phase, °",
+                "standard_error_phase_deg": "+- ",
+                "predicted_phase_deg": "predicted ",
+                "contradicted": "contradicted",
+            },
+            figures=2,
         )
     ],
     "excess_budget": [
@@ -300,10 +318,14 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
                 "measured_deg": "excess",
                 "standard_error_deg": "+-",
                 "reading_deg": "reading",
+                "contacts_deg": "contacts",
+                "softening_deg": "softening",
                 "correlation": "r",
                 "rms_deg": "rms",
                 "rms_less_reading_deg": "less reading",
+                "rms_less_all_deg": "less all",
                 "rms_less_mean_deg": "less mean",
+                "verdict": "verdict",
             },
             figures=3,
         )

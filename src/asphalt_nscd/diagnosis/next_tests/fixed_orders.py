@@ -15,6 +15,8 @@ from asphalt_nscd.files.words import counted, joined, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 
 Orders = list[dict[str, Any]]
+CLEAR = 3.0  # standard errors of an excess phase
+STRAINS = 25, 75  # 1e-6
 MANY = 4  # frequencies from which only the ends are told
 
 
@@ -52,6 +54,30 @@ def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
     )
     purpose = "to see whether the machine adds to the phase"
     return [content(f"test {METAL}, {band(ends)}", (purpose, [why]), hours, ([METAL], [], ends))]
+
+
+def strains(done: Observations, costs: Costs, excesses: Sequence[Mapping[str, Any]]) -> Orders:
+    """Order one specimen at two strains by both modes, where cyclic compression has an excess phase.
+
+    `excesses` as in diagnosis.json. Beams oscillate about zero already, so that nothing is left to tell apart by mode.
+    """
+    clear = [one for one in excesses if one["excess_deg"] > CLEAR * one["standard_error_deg"]]
+    if done.test_type != "tension-compression" or not clear:
+        return []
+    largest = max(clear, key=lambda one: one["excess_deg"])
+    at, frequencies, specimen = largest["temperature_C"], done.frequencies.tolist(), done.names[0]
+    act = (
+        f"test {specimen_named(specimen)} at {at:g} degC and {' and '.join(f'{s:g}' for s in STRAINS)} microstrain, by "
+        f"a haversine and by tension-compression, {band(frequencies)}, and keep the raw signals"
+    )
+    why = (
+        f"The phase lies {largest['excess_deg']:.1f} deg above what |E*| requires. A reading of drift vanishes in "
+        "tension-compression and does not change with strain. Grains that slip and films that soften stay there; the "
+        "excess of films grows as the strain, that of grains less and less."
+    )
+    hours = 4.0 * costs.hours(specimen, at, frequencies)  # two strains by two modes
+    words = "to see whether reading, grains or films cause the excess phase", [why]
+    return [content(act, words, hours, ([specimen], [at], frequencies))]
 
 
 def off_target(done: Observations, costs: Costs, found: Sequence[Mapping[str, Any]]) -> Orders:

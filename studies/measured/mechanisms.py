@@ -1,0 +1,64 @@
+"""What grains that slip, and films that soften, change in a test of a mix, from the tables made before any was seen."""
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
+
+Vector = np.ndarray
+
+
+class Mechanisms:
+    """Changes of ln E*, as a haversine is read with a term for its drift, by modulus and phase of the mix.
+
+    Beyond the moduli and phases that were simulated, the nearest hold: a mix softer than its own skeleton under the
+    stated pressure has no network that stands for it.
+    """
+
+    def __init__(self, tables: Any) -> None:
+        """tables: the files `contacts`, `binder` and `clock`, as attributes."""
+        names = "contacts", "binder", "clock"
+        self.contact, self.binder, self.clock = (pd.read_csv(getattr(tables, name)) for name in names)
+
+    def contacts(self, modulus: Vector, amplitude: float) -> Vector:
+        """ln of what is read over E* (n,) [Pa], by grains that slip and open, at an amplitude of strain."""
+        of = self.contact
+        usual = of[
+            np.isclose(of["amplitude_1e6"], 1e6 * amplitude)
+            & (of["haversine"] == 1)
+            & (of["pressure_kPa"] == 10.0)
+            & (of["friction"] == 0.5)
+        ]
+        phase = np.degrees(np.angle(modulus))
+        levels, changes = [], []
+        for _, row in usual.groupby((np.log(usual["E_MPa"]) / 0.1).round()):
+            row = row.sort_values("phase_deg")
+            levels.append(np.log(row["E_MPa"]).mean())
+            parts = [np.interp(phase, row["phase_deg"], row[name]) for name in ("lnE", "change_deg")]
+            changes.append(parts[0] + 1j * np.radians(parts[1]))
+        return _along(np.log(np.abs(modulus) / 1e6), np.array(levels), np.array(changes))
+
+    def softening(self, modulus: Vector, amplitude: float, kind: str = "haversine") -> Vector:
+        """The same by films that soften; kind: "haversine" or "pulled"."""
+        place = np.log(np.abs(modulus) / 1e6)
+        fall = amplitude * np.exp(np.interp(place, np.log(self.binder["E_MPa"]), np.log(self.binder["fall"])))
+        slope = np.angle(modulus) / (0.5 * np.pi)
+        of = {name: np.interp(slope, self.clock["slope"], self.clock[name]) for name in self.clock}
+        return fall / -of["pulled_lnE"] * (of[f"{kind}_lnE"] + 1j * np.radians(of[f"{kind}_deg"]))
+
+
+def _along(place: Vector, levels: Vector, values: np.ndarray) -> Vector:
+    """Values (l, n) at rising levels (l,), on straight lines at each place (n,); the ends hold beyond them."""
+    right = np.clip(np.searchsorted(levels, place), 1, levels.size - 1)
+    share = np.clip((place - levels[right - 1]) / (levels[right] - levels[right - 1]), 0.0, 1.0)
+    column = np.arange(place.size)
+    return values[right - 1, column] * (1.0 - share) + values[right, column] * share
+
+
+def excess_of(frequency: Vector, modulus: Vector, change: Vector) -> Vector:
+    """Phase [deg] by which a change of ln E* (n,) of an isotherm lies above what its own |E*| requires then."""
+    before = np.log(np.abs(modulus))
+    required = [required_phase(frequency, log).phase for log in (before, before + change.real)]
+    return np.degrees(change.imag - (required[1] - required[0]))
