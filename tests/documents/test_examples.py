@@ -15,7 +15,7 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parents[2]
 MODULES = [
     "api.arguments", "api.bending", "api.comparison", "api.contacts", "api.diagnosis", "api.exporting",
-    "api.fatigue", "api.forecasting", "api.laws", "api.reading", "api.specimens", "bending.case",
+    "api.fatigue", "api.forecasting", "api.laws", "api.ramp", "api.reading", "api.specimens", "bending.case",
     "bending.further_settings", "bending.settings",
     "bending.fatigue", "bending.rig", "diagnosis.run", "files.errors", "files.words", "measurements.signals",
     "files.options", "files.ranges", "measurements.twopoint", "diagnosis.settings", "exports.settings",

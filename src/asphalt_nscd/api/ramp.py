@@ -11,7 +11,7 @@ import pandas as pd
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.bending import model_in_memory
 from asphalt_nscd.api.laws import Law
-from asphalt_nscd.api.pictures import drawing, shown_in_notebooks
+from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.api.results import Result
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending.further_settings import Ramp
@@ -36,6 +36,12 @@ class Failure(Result):
         which says why the record is shorter than asked, else empty.
     name : str, optional
         Of the specimen in messages.
+
+    Examples
+    --------
+    >>> arrays = {"time_s": np.array([1.0]), "displacement_m": np.array([1e-6]), "force_N": np.array([2.0])}
+    >>> list(Failure(arrays, {}).history)
+    ['time_s', 'displacement_m', 'force_N']
     """
 
     kind = RAMP
@@ -60,14 +66,8 @@ class Failure(Result):
         -------
         Figure
             A Matplotlib figure; `savefig` writes it.
-
-        Raises
-        ------
-        ModuleNotFoundError
-            Where Matplotlib, of the extra `figures`, is not installed.
         """
-        with drawing():
-            from matplotlib.figure import Figure
+        from matplotlib.figure import Figure
 
         figure = Figure(figsize=(3.5, 2.8), layout="constrained")
         axes = figure.subplots()
