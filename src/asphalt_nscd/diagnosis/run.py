@@ -24,6 +24,7 @@ from asphalt_nscd.diagnosis.record import measured_limits, report, reported
 from asphalt_nscd.diagnosis.record.instructions import MOST, instructions
 from asphalt_nscd.diagnosis.record.measured_limits import Progress
 from asphalt_nscd.diagnosis.record.trust import reading, trust
+from asphalt_nscd.diagnosis.record.volumetrics import explained, read_volumetrics
 from asphalt_nscd.diagnosis.screening import levels, suspects
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.settings import Draws, Simulated
@@ -34,7 +35,8 @@ from asphalt_nscd.diagnosis.words.summary import answer
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign
-from asphalt_nscd.rheology.spectrum import LAWS
+from asphalt_nscd.rheology.fitting import Fit
+from asphalt_nscd.rheology.spectrum import LAWS, Spectrum
 from asphalt_nscd.rheology.spectrum_io import Uncertainty, fit_content
 
 OF_THE_PAPER = (
@@ -90,7 +92,7 @@ class Stated:
     """What the user says beside the table.
 
     `static_modulus` of the mix in Pa; `scatter` of |E*| (relative) and of the phase [rad]; `law`: one of `LAWS`, the
-    form that is fitted.
+    form that is fitted; `vma` and `vfa` in percent.
 
     >>> Stated().law
     '2s2p1d'
@@ -99,6 +101,8 @@ class Stated:
     static_modulus: float | None = None
     scatter: tuple[float, float] | None = None
     law: str = "2s2p1d"
+    vma: float | None = None
+    vfa: float | None = None
 
     def __post_init__(self) -> None:
         if self.law not in LAWS:
@@ -138,11 +142,18 @@ def conclude(
     if np.unique(diagnosis.observed.isotherm[~doubtful]).size < diagnosis.observed.isotherms.size:
         doubtful[:] = False  # the rest makes no law
     # law.json is of all temperatures: one isotherm has no shift.
-    fit = None if observed.isotherms.size < 2 else extension.material_law(diagnosis, ~doubtful, stated.law)
+    volumes = read_volumetrics(None if campaign is None else campaign.table, stated.vma, stated.vfa)
+    fit = known = law = None
+    if observed.isotherms.size > 1:
+        fit = extension.material_law(diagnosis, ~doubtful, stated.law, volumes.of_mix)
     content, before = report.diagnosis_content(diagnosis, numerical), None
+    content["scatter"]["air_voids"] = explained(diagnosis, volumes)
     if fit is not None:
+        known = _uncertainty(diagnosis, fit, ~doubtful)
+        law = fit_content(fit, f"fitted ({origin})", known)
+        content["notes"] += volumes.note
         content["law_misses"] = extension.law_misses(diagnosis, fit.law, ~doubtful)
-        content["laws"] = extension.compared(diagnosis, fit, ~doubtful)
+        content["laws"] = extension.compared(diagnosis, fit, ~doubtful, volumes.of_mix)
         at = [] if highest is None else [f"the tests at {highest.frequency:g} Hz"]
         content["notes"] += extension.law_notes(diagnosis, fit.law, [*levels.places(*odd), *at])
         said, notes = extension.left_to_priors(fit)
@@ -192,7 +203,7 @@ def conclude(
     if highest is not None:
         off |= highest.rows(observed)
     content["trust"] = trust(observed, diagnosis, off, to_check)
-    standard = reported.standard_values(diagnosis)
+    standard = reported.standard_values(diagnosis, None if fit is None else fit.law, known)
     content["reported"] = standard.iloc[0].to_dict()
     content["provenance"] = {
         **provenance(),
@@ -205,12 +216,8 @@ def conclude(
         "static_modulus_Pa": stated.static_modulus,
         "scatter_stated": None if scatter is None else list(scatter),
     }
-    law, known, curve = None, None, reported.master_curve(diagnosis)
-    if fit is not None:
-        if fit.covariance is not None:
-            form = extension.misfit_of_form(diagnosis, fit.law, ~doubtful)
-            known = Uncertainty(fit.covariance, reported.freedom_of(diagnosis), form)
-        law = fit_content(fit, f"fitted ({origin})", known)
+    curve = reported.master_curve(diagnosis)
+    if fit is not None and law is not None:
         content["law_parameters"] = law_parameters(law)
         curve = reported.add_law_columns(curve, fit.law, known)
     return Outcome(
@@ -221,6 +228,16 @@ def conclude(
         diagnosis,
         to_report={"corrected": reported.corrected(diagnosis), "reported": standard, "master_curve": curve},
     )
+
+
+def _uncertainty(diagnosis: Diagnosis, fit: Fit[Spectrum], used: NDArray[np.bool_]) -> Uncertainty | None:
+    """What the tests leave open of law.json; None where they do not determine it."""
+    if fit.covariance is None:
+        return None
+    form = extension.misfit_of_form(diagnosis, fit.law, used)
+    tested = diagnosis.observed.temperature[used]
+    ends = float(tested.min()), float(tested.max())
+    return Uncertainty(fit.covariance, reported.freedom_of(diagnosis), form, ends)
 
 
 def law_parameters(law: Mapping[str, Any]) -> dict[str, dict[str, Any]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -36,6 +36,18 @@ class Reported:
     std_error: NDArray[np.complex128]
     tested: NDArray[np.bool_]  # whether the tests reach there
     freedom: tuple[float, float]
+
+    def beyond(self, law: Spectrum, uncertainty: Uncertainty) -> Reported:
+        """With the values and the band of a law where the tests do not reach."""
+        omega = 2.0 * np.pi * self.frequency
+        star = law.complex_modulus(omega, self.temperature)
+        half = uncertainty.half(law, omega, self.temperature)
+        of_modulus, of_phase = map(student, self.freedom)
+        return replace(
+            self,
+            logarithm=np.where(self.tested, self.logarithm, np.log(np.abs(star)) + 1j * np.angle(star)),
+            std_error=np.where(self.tested, self.std_error, half.real / of_modulus + 1j * half.imag / of_phase),
+        )
 
     def table(self) -> pd.DataFrame:
         """One row for each condition, with the 95 % intervals."""
@@ -103,11 +115,18 @@ def freedom_of(diagnosis: Diagnosis) -> tuple[float, float]:
     return min(freedom, SCALE_FREEDOM + len(diagnosis.observed.names) - 1), freedom
 
 
-def standard_values(diagnosis: Diagnosis) -> pd.DataFrame:
-    """E* of the mix with 95 % intervals at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84."""
+def standard_values(diagnosis: Diagnosis, law: Spectrum | None, uncertainty: Uncertainty | None) -> pd.DataFrame:
+    """E* of the mix with 95 % intervals at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84.
+
+    Beyond the tests the free curve knows no mix: there the `law` of law.json holds with its priors, or nothing.
+    """
     conditions = [EN_12697_26, *((t, f) for t in R_84_CELSIUS for f in R_84_HERTZ)]
     temperature, frequency = np.array(conditions).T
-    return mix_modulus(diagnosis, temperature, frequency).table()
+    grid = mix_modulus(diagnosis, temperature, frequency)
+    if law is not None and uncertainty is not None:
+        return grid.beyond(law, uncertainty).table()
+    asked_for = grid.tested | (np.arange(temperature.size) == 0)
+    return grid.table()[asked_for].reset_index(drop=True)
 
 
 def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:

@@ -49,12 +49,15 @@ TERMS = {  # a parameter of the law in words, its unit and how many of it are on
 
 
 def material_law(
-    diagnosis: Diagnosis, used: NDArray[np.bool_] | None = None, form: str = "2s2p1d"
+    diagnosis: Diagnosis,
+    used: NDArray[np.bool_] | None = None,
+    form: str = "2s2p1d",
+    volumetrics: tuple[float, float] | None = None,
 ) -> Fit[Spectrum]:
     """One law with a WLF shift of the measurements without the causes that are taken off.
 
     Of two temperatures or four tests, which determine no WLF constants, with an Arrhenius shift. What the tests leave
-    open is as usual for asphalt concrete. Errors of |E*| and of the phase count alike: the misfit of the form exceeds
+    open is as usual for asphalt concrete, or as its `volumetrics` (VMA and VFA in percent) say. Errors of |E*| and of the phase count alike: the misfit of the form exceeds
     the scatter, which is therefore no measure of what to trust. The covariance is that of the free curve at the tests
     (see `reported`), carried to the parameters, with that misfit.
     """
@@ -69,7 +72,7 @@ def material_law(
         modulus[rows],
         reference,
         Form(form, shift),
-        prior=prior_of(form),
+        prior=prior_of(form, volumetrics),
     )
     free, slope = diagnosis.ladder.joint.apparent(diagnosis.ladder.fitted.law, ())
     along = (slope[rows] / free[rows, None])[:, : diagnosis.ladder.fitted.law.size]
@@ -88,11 +91,16 @@ def misfit_of_form(diagnosis: Diagnosis, law: Spectrum, used: NDArray[np.bool_])
     return of_modulus, of_phase
 
 
-def compared(diagnosis: Diagnosis, fit: Fit[Spectrum], used: NDArray[np.bool_]) -> list[dict[str, Any]]:
+def compared(
+    diagnosis: Diagnosis,
+    fit: Fit[Spectrum],
+    used: NDArray[np.bool_],
+    volumetrics: tuple[float, float] | None = None,
+) -> list[dict[str, Any]]:
     """Each law of `LAWS` with its number of parameters and its errors, as in `law_misses`; `fit` is the one taken."""
     found = []
     for name, kind in LAWS.items():
-        law = fit.law if isinstance(fit.law, kind) else material_law(diagnosis, used, name).law
+        law = fit.law if isinstance(fit.law, kind) else material_law(diagnosis, used, name, volumetrics).law
         about = {"law": name, "title": law.title, "parameters": len(parameters(law))}
         found.append({**about, **law_misses(diagnosis, law, used), "taken": law is fit.law})
     return found
