@@ -114,7 +114,10 @@ def summary(rows: pd.DataFrame) -> pd.DataFrame:
         phase_error=(rows["phase_deg"] - rows["mix_phase_deg"]).abs(),
         phase_half=(rows["phase_high_deg"] - rows["phase_low_deg"]) / 2.0,
     )
-    parts = [about.assign(at="-10 to 54 degC"), about.assign(at=about["temperature_C"].map("{:g} degC".format))]
+    parts = [
+        about.assign(at="-10 to 54 degC"),
+        about.assign(at=about["temperature_C"].map("{:g} degC".format)),
+    ]
     found = pd.concat(parts).groupby(["population", "at"], sort=False)
     return found.agg(
         tables=("tables", "nunique"),
@@ -129,7 +132,9 @@ def summary(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("invented", type=int)
     parser.add_argument("thinned", type=int)
     parser.add_argument("--seed", type=int, required=True)

@@ -465,7 +465,11 @@ def diagnose(
             campaign_in(measurements, measured_in=measured_in),
             geometry,
             stated=Stated(
-                None if static is None else 1e6 * static, stated, known.law, known.vma_percent, known.vfa_percent
+                None if static is None else 1e6 * static,
+                stated,
+                known.law,
+                known.vma_percent,
+                known.vfa_percent,
             ),
             simulated=simulated,
             draws=draws,

@@ -46,7 +46,9 @@ class Reported:
         return replace(
             self,
             logarithm=np.where(self.tested, self.logarithm, np.log(np.abs(star)) + 1j * np.angle(star)),
-            std_error=np.where(self.tested, self.std_error, half.real / of_modulus + 1j * half.imag / of_phase),
+            std_error=np.where(
+                self.tested, self.std_error, half.real / of_modulus + 1j * half.imag / of_phase
+            ),
         )
 
     def table(self) -> pd.DataFrame:
@@ -115,7 +117,9 @@ def freedom_of(diagnosis: Diagnosis) -> tuple[float, float]:
     return min(freedom, SCALE_FREEDOM + len(diagnosis.observed.names) - 1), freedom
 
 
-def standard_values(diagnosis: Diagnosis, law: Spectrum | None, uncertainty: Uncertainty | None) -> pd.DataFrame:
+def standard_values(
+    diagnosis: Diagnosis, law: Spectrum | None, uncertainty: Uncertainty | None
+) -> pd.DataFrame:
     """E* of the mix with 95 % intervals at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84.
 
     Beyond the tests the free curve knows no mix: there the `law` of law.json holds with its priors, or nothing.
