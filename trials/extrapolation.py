@@ -2,9 +2,9 @@
 
     python -m extrapolation 10 100 --seed 20281128 --folder results/extrapolation
 
-Three populations, each of three temperatures: T 378 campaigns of invented 2S2P1D mixes; tables as laboratories hand them
-over (`attack.laboratory`, no law and no shift of the diagnosis), thinned; and the 25 measured mixes of data/mixes50, of
-whose five temperatures three are given and all are asked for.
+Three populations, each of three temperatures: T 378 campaigns of invented 2S2P1D mixes; tables as laboratories hand
+them over (`attack.laboratory`, no law and no shift of the diagnosis), thinned; and the 25 measured mixes of
+data/mixes50, of whose five temperatures three are given and all are asked for.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def measured(path: str | Path) -> Iterator[Table]:
 
 
 def held(tables: Iterator[Table], draws: int = 500) -> pd.DataFrame:
-    """One row for each table and condition of the grid: the mix, what is reported, and whether the interval holds it."""
+    """One row for each table and condition of the grid: the mix, what is reported, whether the interval holds it."""
     rows = []
     for name, tests, mix in tables:
         diagnosis = an.diagnose(tests, measured_in="tension-compression", draws=an.Draws(draws))

@@ -17,7 +17,7 @@ SOUND = {
     "with_suspects": None,
     "without_doubtful": None,
     "instructions": {"costs": "", "orders": []},
-    "trust": {"use": 72, "check": 0, "not_used": 0, "use_by_specimen": {}},
+    "trust": {"use": 72, "check": 0, "held_back": 0, "not_used": 0, "use_by_specimen": {}},
     "contradictory_isotherms": [],
     "one_sided": "",
     "odd_levels": [],
@@ -32,4 +32,4 @@ SOUND = {
     "notes": [],
     "provenance": {"scatter_stated": None},
 }
-SURE = {"as_good": [], "established": True, "taken_off": True, "hangs_on": [], "doubts": []}  # of a rung
+SURE = {"as_good": [], "established": True, "taken_off": 1.0, "hangs_on": [], "doubts": []}  # of a rung

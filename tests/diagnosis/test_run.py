@@ -15,8 +15,8 @@ from test_diagnose import table
 
 from asphalt_nscd.diagnosis import run
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.record.reading import reading
 from asphalt_nscd.diagnosis.record.report import physical_limits
-from asphalt_nscd.diagnosis.record.trust import reading
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.screening.within_isotherm import leave_one_out
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
@@ -39,7 +39,7 @@ SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))
 
 def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
     campaign, _ = read_campaign([EXPORTS])
-    read = reading(read_observations(campaign, PAPER_GEOMETRY)[0], ["a note of the import"])
+    read = reading(read_observations(campaign, PAPER_GEOMETRY)[0], [], ["a note of the import"])
     assert (read["test_type"], read["isotherms_C"]) == ("tension-compression", [4, 20, 35, 50])
     assert read["limits_exceeded"] == [
         {
@@ -68,7 +68,9 @@ def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
     also = (observed.specimen == 0) | ((observed.specimen == 1) & (observed.isotherm == 20.0))
     more = np.where(also, 40.0, 10.0)
     for values, where in ((uneven, "specimen Mix-A"), (more, "specimen Mix-A and specimen Mix-B at 20 degC")):
-        notes = reading(replace(observed, quality={"deformation_uniformity_percent": values}), [])["notes"]
+        notes = reading(replace(observed, quality={"deformation_uniformity_percent": values}), [], [])[
+            "notes"
+        ]
         assert notes[-1].endswith(
             f" Half of the tests or more exceed it in {where}: check gauges and mounting. No single test is rejected "
             "for that."
@@ -77,14 +79,14 @@ def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
 
 def test_a_specimen_that_lacks_a_temperature_of_the_others_is_named():
     observed, _ = read_observations(read_campaign([EXPORTS])[0], PAPER_GEOMETRY)
-    assert "not_tested" not in reading(observed, [])
+    assert "not_tested" not in reading(observed, [], [])
     lacking = (observed.specimen == 1) & (observed.isotherm == 20)
-    assert reading(observed.subset(np.flatnonzero(~lacking)), [])["not_tested"] == [
+    assert reading(observed.subset(np.flatnonzero(~lacking)), [], [])["not_tested"] == [
         "specimen Mix-B at 20 degC"
     ]
     alone = observed.isotherm != 20
     alone |= observed.specimen == 1
-    assert "not_tested" not in reading(observed.subset(np.flatnonzero(alone)), [])
+    assert "not_tested" not in reading(observed.subset(np.flatnonzero(alone)), [], [])
 
 
 def test_an_isotherm_off_its_target_is_to_be_checked_and_tested_again_first(tmp_path):

@@ -23,7 +23,8 @@ def content(used: int, out: int, **then):
         {"specimen": "A", "temperature_C": 4.0 + k, "frequency_Hz": 25.0, "reasons": ["x"]}
         for k in range(used + out)
     ]
-    suspect = [{**one, "used": k < used} for k, one in enumerate(tests)]
+    status = ["doubtful"] * used + ["left out"] * out
+    suspect = [{**one, "status": told, "decided_by": "its own isotherm"} for one, told in zip(tests, status)]
     ladder = [{"cause": "phase_offset", "where": None}]
     return SOUND | {"suspect_tests": suspect, "ladder": ladder, **then}
 

@@ -50,9 +50,9 @@ class Diagnosis:
     >>> diagnosis = diagnose("data/tutorial/exports", draws=Draws(500))
     >>> diagnosis.verdict, diagnosis.law.kind
     ('explained', '2s2p1d')
-    >>> diagnosis.suspects[["specimen", "temperature_C", "frequency_Hz", "used"]]
-      specimen  temperature_C  frequency_Hz   used
-    0    Mix-B            4.0          25.0  False
+    >>> diagnosis.suspects[["specimen", "temperature_C", "frequency_Hz", "status"]]
+      specimen  temperature_C  frequency_Hz    status
+    0    Mix-B            4.0          25.0  left out
     """
 
     outcome: Outcome
@@ -149,7 +149,8 @@ class Diagnosis:
             One row for each: specimen, temperature_C, frequency_Hz, used, reasons.
         """
         rows = [{**one, "reasons": "; ".join(one["reasons"])} for one in self.content["suspect_tests"]]
-        return pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz", "used", "reasons"])
+        names = ["specimen", "temperature_C", "frequency_Hz", "status", "reasons", "decided_by"]
+        return pd.DataFrame(rows, columns=names)
 
     @property
     def limits(self) -> pd.DataFrame:
@@ -338,7 +339,7 @@ class Diagnosis:
             # It stands for the law of the mix, and is no fault of a test.
             if row.cause != "relaxation_spectrum"
         ]
-        aside = int((~self.suspects["used"].astype(bool)).sum())
+        aside = self.content["trust"]["not_used"]
         used = counted(self.content["tests"], "test")
         return f"Diagnosis({self.verdict}: {'; '.join(named) or 'no cause named'}; {used} used, {aside} not used)"
 

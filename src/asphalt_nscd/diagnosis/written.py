@@ -79,12 +79,16 @@ def read_causality(paths: Sequence[Path]) -> pd.DataFrame:
     """Read the one causality.csv: each test's phase, that which |E*| requires (NaN: not judged), what is suspect."""
     table = read_csv(only_file(paths, "causality"))
     required, error = "phase_required_deg", "std_error_deg"
-    table.require(["specimen", *_TEST, required, error, "quality_flag", "reasons", "used"])
+    table.require(["specimen", *_TEST, required, error, "quality_flag", "status", "reasons"])
     return pd.DataFrame(
-        {"specimen": table.text("specimen"), "reasons": table.columns["reasons"]}
+        {
+            "specimen": table.text("specimen"),
+            "status": table.text("status"),
+            "reasons": table.columns["reasons"],
+        }
         | {name: table.numbers(name) for name in _TEST}
         | {name: table.numbers_or_nan(name) for name in (required, error)}
-        | {name: table.numbers(name) > 0.0 for name in ("quality_flag", "used")}
+        | {"quality_flag": table.numbers("quality_flag") > 0.0}
     )
 
 

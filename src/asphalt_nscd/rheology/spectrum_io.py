@@ -29,7 +29,8 @@ _KEYS = {
 }
 _REFERENCE = {"reference_temperature": "reference_temperature_C"}
 # Standard deviation of ln a_T by which the shift of a mix leaves the form that is fitted, this far [K] from the
-# reference temperature; it grows with the cube. Half of the prior of the free curve (`diagnosis.model.bases`): C2 has one too.
+# reference temperature; it grows with the cube. Half of the prior of the free curve (`diagnosis.model.bases`), for C2
+# has one too.
 DEPARTURE, DEPARTURE_KELVIN = 0.1, 25.0
 
 

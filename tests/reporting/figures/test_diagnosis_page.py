@@ -149,7 +149,7 @@ def test_without_replicates_nothing_is_called_right_or_established(page, results
     assert "Not certain: only 2 temperatures were tested, and certainty takes 4." in html
 
 
-SURE = {"as_good": [], "established": True, "taken_off": True, "hangs_on": [], "doubts": []}
+SURE = {"as_good": [], "established": True, "taken_off": 1.0, "hangs_on": [], "doubts": []}
 GAIN = {
     **dict.fromkeys(
         ("mre_E_percent", "mre_phase_percent", "rms_over_scatter"), {"before": 2.0, "after": 1.0}
@@ -200,7 +200,8 @@ def test_what_a_laboratory_is_to_do_stands_on_the_page(page):
         "specimen": "A",
         "temperature_C": 4.0,
         "frequency_Hz": 25.0,
-        "used": False,
+        "status": "left out",
+        "decided_by": "its own isotherm",
         "reasons": ["phase 18.8 deg +- 1"],
     }
     other = {"verdict": "explained", "causes": [{"cause": "phase_offset", "where": None}]}
@@ -209,7 +210,7 @@ def test_what_a_laboratory_is_to_do_stands_on_the_page(page):
         instructions={"costs": "Counted: 2 h.", "orders": [order]},
         suspect_tests=[suspect],
         with_suspects=other,
-        trust={"use": 12, "check": 0, "not_used": 1, "use_by_specimen": {}},
+        trust={"use": 12, "check": 0, "held_back": 0, "not_used": 1, "use_by_specimen": {}},
     )
     assert "<b>2.5 h: test specimens A and B at −6 °C, 25 Hz.</b> It shows as 7.1°." in html
     assert "<p>12 of 13 tests can be used, 1 cannot.</p>" in html

@@ -202,7 +202,9 @@ class Results:
         parameters = {"Em_Pa": 2e10, "eta_m_Pa_s": 1e9, "Ek_Pa": 3e10, "eta_k_Pa_s": 1e8}
         content = {
             "schema_version": 3, "verdict": "explained", "tests": 12, "tested": True, "origin": "reconstructed",
-            "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": True},
+            "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": True,
+                        "air_voids": None},
+            "averaged_over": [{"causes": [], "probability": 1.0}],
             "numerics": {
                 "specimen": "s1", "modulus_over_law": 1.002, "largest_modulus_percent": 0.1, "largest_phase_deg": 0.02,
             },
@@ -212,7 +214,7 @@ class Results:
             },
             "ladder": [
                 rung | {"cause": "relaxation_spectrum", "parameters": spectrum, "log10_shift": {"0": 2.0, "20": 0.0}},
-                rung | {"cause": "loose_clamp", "where": "2", "parameters": clamp, "taken_off": True},
+                rung | {"cause": "loose_clamp", "where": "2", "parameters": clamp, "taken_off": 1.0},
             ],
             "withdrawn": [], "indistinguishable": [["loose_clamp of all specimens", "relaxation_spectrum"]],
             "not_testable": [{"cause": "damage", "needs": "the order of the tests"}],
@@ -230,7 +232,8 @@ class Results:
             },
             "estimates": {}, "estimates_spread": 1.0, "discrepancy": [], "repeatability": None, "with_suspects": None,
             "without_doubtful": None, "instructions": {"costs": "", "orders": []}, "contradictory_isotherms": [],
-            "trust": {"use": 12, "check": 0, "not_used": 0, "use_by_specimen": {}}, "one_sided": "", "odd_levels": [],
+            "trust": {"use": 12, "check": 0, "held_back": 0, "not_used": 0, "use_by_specimen": {}}, "one_sided": "",
+            "odd_levels": [],
             "odd_phases": [], "odd_temperatures": [], "suspect_tests": [], "detection_limits_of_one_place": {},
             "reported": {
                 "temperature_C": 15.0, "frequency_Hz": 10.0, "E_MPa": 9e3, "E_low_MPa": 8e3, "E_high_MPa": 1e4,
@@ -286,7 +289,7 @@ class Results:
                             "std_error_deg": 1.0,
                             "quality_flag": int(fault),
                             "reasons": "phase; twice" if fault or doubt else "",
-                            "used": int(not fault),
+                            "status": "left out" if fault else "doubtful" if doubt else "used",
                         }
                     )
         write_table(path := self.folder / "causality.csv", pd.DataFrame(rows))

@@ -50,7 +50,6 @@ def diagnosis_content(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict
             "specimens_percent": 100.0 * diagnosis.noise.scale,
             "from_replicates": diagnosis.replicated and diagnosis.noise.freedom < STATED,
         },
-        "suspect_tests": _suspects(diagnosis),
         "numerics": _numerics(diagnosis, specimen),
         "baseline": {
             "law": "burgers",
@@ -181,21 +180,6 @@ def _limits_of_one_place(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
             where = {"specimen": one.specimen, "temperature_C": one.isotherm, "value": value}
             entry["places"].append(where)
     return limits
-
-
-def _suspects(diagnosis: Diagnosis) -> list[dict[str, Any]]:
-    """Doubtful tests with their reasons, and whether the diagnosis used them."""
-    whole = diagnosis.whole or diagnosis.observed
-    return [
-        {
-            "specimen": whole.names[whole.specimen[one.row]],
-            "temperature_C": float(whole.isotherm[one.row]),
-            "frequency_Hz": float(whole.frequency[one.row]),
-            "reasons": list(one.reasons),
-            "used": one.used,
-        }
-        for one in diagnosis.suspects
-    ]
 
 
 def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:

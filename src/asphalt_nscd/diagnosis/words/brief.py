@@ -29,10 +29,7 @@ MOST = 4  # sentences of a row; a reader finds the others in the reasons
 PARTS = 2  # of what stays unexplained
 FEW = 6  # specimens that are named one by one
 _wrapped = partial(wrap, width=WIDTH, break_long_words=False, break_on_hyphens=False)
-NOT_TAKEN_OFF = (
-    "law.json and corrected.csv hold the effects of possible faults; reported.csv and "
-    "master_curve.csv do not."
-)
+AVERAGED = "law.json and reported.csv weigh both, with it and without; corrected.csv holds it."
 MORE = "{} more: see the reasons."
 TYPE_NOT_GIVEN = (
     "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. Say whether it "
@@ -54,7 +51,7 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
         ("Note", _notes(content)),
         ("Data", _data(content)),
         ("Fault", certain or _lack_of_certainty(content, bool(possible), bool(effects))),
-        ("Possible fault", [*possible, *_uncorrected_law(content, bool(possible))]),
+        ("Possible fault", possible),
         ("Effect", effects),
         ("Possible effect", likely),
         ("Leave out", [*_few(_doubts_by_isotherm(unused_tests(content))), *_if_kept(content)]),
@@ -142,7 +139,11 @@ def _data(content: Content) -> list[str]:
     of = [name for name, count in trust["use_by_specimen"].items() if count]
     alone = f" (of {specimen_named(of[0])} only)" if len(of) == 1 < len(trust["use_by_specimen"]) else ""
     parts = [f"{trust['use'] or 'None'} of {tests + out} tests can be used{corrected}{alone}"]
-    at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)" if "check_at_C" in trust else ""
+    at = ""
+    if "check_at_C" in trust:
+        at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)"
+    elif "check_of" in trust:
+        at = f" (all of {joined(list(map(specimen_named, trust['check_of'])))})"
     parts += [f"{trust['check']} only if a check clears them{at}"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
     side = "higher" if "higher" in content["one_sided"] else "lower"
@@ -174,31 +175,18 @@ def _fault(rung: Content, content: Content) -> str:
     of_the_mix = rung["cause"] in verdict.OF_THE_MIX
     meaning = _sentence(rung["sentence"]) if of_the_mix else sentences.meaning(rung).strip()
     said = [_sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")]
-    taken_off = _taken_off(rung, content)
     if not sure(rung):
         same = [name for name in rung["as_good"] if name.startswith(f"{rung['cause']} @")]
         others = joined(list(map(sentences.spell_cause, same)), "or")
         said += [f"If so, {meaning[:1].lower()}{meaning[1:]}"] * bool(meaning)
         said += [f"Not certain: {others} fits as well."] * bool(same)
-        said += [f"Its probability is {sentences.probability(rung)}."] if "probability" in rung else []
-        said += ["law.json is corrected for it all the same."] * (taken_off and not same)
+        said.append(f"Its probability is {sentences.probability(rung)}: {AVERAGED}")
     elif of_the_mix:
-        said += [meaning, "law.json is free of it." * taken_off]
+        said += [meaning, "law.json is free of it." * ("law_misses" in content)]
     else:
         correction = verdict.correction(rung)
         said += [meaning, f"Correction: {correction}." * bool(correction)]
     return " ".join(filter(None, said))
-
-
-def _taken_off(rung: Content, content: Content) -> bool:
-    return "law_misses" in content and bool(rung["taken_off"])
-
-
-def _uncorrected_law(content: Content, possible: bool) -> list[str]:
-    """That law.json holds what is not certain, where no such cause was taken off."""
-    taken_off = any(_taken_off(rung, content) for rung in verdict.faults(content) if not sure(rung))
-    told = possible and "law_misses" in content and not taken_off
-    return [NOT_TAKEN_OFF] * told
 
 
 def _if_kept(content: Content) -> list[str]:
@@ -348,7 +336,10 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     where = verdict.predicted_badly(content)
     misses = content.get("law_misses")
     law = "the law" if simulated or misses is None else "law.json"
-    warning = [f"Do not use {law} {where}."] if where else []
+    warning = [f"Do not use {law} {where}."] if where and law != "law.json" else []
+    warning += (
+        [f"{sentences.capital(where)} it holds only within its interval."] if where and not warning else []
+    )
     if simulated or misses is None:
         return [" ".join([_sentence(verdict.simulation_miss(content, left)), *warning])]
     modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
@@ -360,11 +351,9 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     if sentences.alone(content):
         said.append("Without replicates nobody knows how much of that is scatter.")
     named = [*verdict.faults(content), *verdict.effects(content)]
-    corrected = any(rung["taken_off"] for rung in named)
-    out = levels.places(*odd(content))
-    if "highest_frequency" in content:
-        out.append(f"the tests at {content['highest_frequency']['frequency_Hz']:g} Hz")
-    doubtful = content["trust"].get("check", 0) and not out
+    corrected = any(map(sure, named))
+    out = verdict.held_back(content)
+    doubtful = content["trust"]["check"] and not out
     but = " but those left out" * bool(unused_tests(content))
     if corrected or out:
         without = f" without {joined(out)}" if out else ""

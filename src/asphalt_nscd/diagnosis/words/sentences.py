@@ -13,6 +13,7 @@ import numpy as np
 from asphalt_nscd.diagnosis import written
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
+from asphalt_nscd.diagnosis.record.statuses import ITSELF, LEFT_OUT
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import counted, joined, specimen_named
@@ -46,12 +47,14 @@ def odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
 
 def unused_tests(content: Content) -> list[Content]:
     """Suspect tests that the diagnosis left out, in their order."""
-    return [one for one in content["suspect_tests"] if not one["used"]]
+    return [one for one in content["suspect_tests"] if one["status"] == LEFT_OUT]
 
 
 def doubtful(content: Content) -> list[Content]:
-    """Suspect tests that the diagnosis used all the same, in their order."""
-    return [one for one in content["suspect_tests"] if one["used"]]
+    """Tests that their own isotherm speaks against and that the diagnosis used all the same, in their order."""
+    return [
+        one for one in content["suspect_tests"] if ITSELF in one["decided_by"] and one["status"] != LEFT_OUT
+    ]
 
 
 def suspect_change(content: Content) -> str:

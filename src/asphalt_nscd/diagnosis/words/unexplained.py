@@ -75,7 +75,7 @@ def remarks(content: Content, most: int = LARGEST) -> list[str]:
     said = [f"These sizes include what is odd: {joined(places)}"] if places else []
     specimens = len(content.get("reading", {}).get("specimens", []))
     largest = sorted(content["discrepancy"], key=lambda one: -one["size"])[:most]
-    if 1 < specimens < MANY_SPECIMENS and any(one["specimen"] is not None for one in largest):
+    if not places and 1 < specimens < MANY_SPECIMENS and any(one["specimen"] is not None for one in largest):
         said.append(f"{specimens} specimens are too few to tell which one is odd")
     return said
 

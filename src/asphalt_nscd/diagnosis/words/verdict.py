@@ -112,11 +112,11 @@ def two_laws(content: Content) -> list[str]:
     misses = content.get("law_misses")
     if misses is None or not named(content, LAW) or bonded(content):
         return []
-    kept = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung["taken_off"]]
-    are, them = ("is", "it") if len(kept) == 1 else ("are", "them")
-    not_certain = f"{are} not certain, so law.json is not corrected for {them}."
-    doubtful = f" {joined(kept).capitalize()} {not_certain}" * bool(kept)
-    out = levels.places(*odd(content))
+    unsure = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung["established"]]
+    are, them = ("is", "it") if len(unsure) == 1 else ("are", "them")
+    weighed = f"{are} not certain: law.json is the mean with {them} and without, by their probability."
+    doubtful = f" {joined(unsure).capitalize()} {weighed}" * bool(unsure)
+    out = held_back(content)
     fewer = f", those of law.json without {joined(out)}" if out else ""
     neither = " Tests left out are in neither." * bool(unused_tests(content))
     return [
@@ -126,6 +126,15 @@ def two_laws(content: Content) -> list[str]:
         f"{COMMON} a test counts less the more it scatters, and a temperature or a specimen that no master curve fits "
         f"counts little. All these misfits are means over the temperatures{fewer}.{neither}",
     ]
+
+
+def held_back(content: Content) -> list[str]:
+    """What law.json and reported.csv are made without until a check clears it, in words; empty where nothing is."""
+    if not content["trust"]["held_back"]:
+        return []
+    highest = content.get("highest_frequency")
+    at = [] if highest is None else [f"the tests at {highest['frequency_Hz']:g} Hz"]
+    return [*levels.places(*odd(content)), *at]
 
 
 def held_against(content: Content) -> str:

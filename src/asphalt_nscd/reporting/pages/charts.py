@@ -15,6 +15,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from asphalt_nscd.diagnosis.criteria import NOTABLE
+from asphalt_nscd.diagnosis.record.statuses import LEFT_OUT
 from asphalt_nscd.diagnosis.written import (
     BEFORE_AFTER,
     RESIDUALS,
@@ -156,7 +157,7 @@ def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
     return Chart(
         "specimens",
         "Specimens: Black diagram and master curve",
-        "Tests of one material should lie on one curve. Hollow points mark suspect tests. Lines in the Black diagram: "
+        "Tests of one material should lie on one curve. Hollow points: not simply used. Lines in the Black diagram: "
         "modelled before (dashed) and with all causes.",
         plots,
     )
@@ -192,8 +193,8 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
         plots.append(inline(figure, f"{specimen_named(str(name))}, {counted(len(worst), 'test')}"))
     caption = (
         "In degrees. The required phase is computed from |E*| alone, and no delay or offset is taken off. The list of "
-        "doubtful tests uses the phases at the other frequencies too, so its numbers differ. Cross: suspect, not used. "
-        "Ring: suspect, used. Triangle: a quality limit is exceeded."
+        "doubtful tests uses the phases at the other frequencies too, so its numbers differ. Cross: left out. "
+        "Ring: doubtful or held back. Triangle: a quality limit is exceeded."
     )
     return Chart(
         "causality", "Phase measured less the phase that |E*| requires", caption if plots else NONE, plots
@@ -201,7 +202,7 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
 
 
 def _marks(row: dict[str, Any]) -> list[str]:
-    suspect = [] if not row["reasons"] else ["doubtful" if row["used"] else "not used"]
+    suspect = [] if not row["reasons"] else ["not used" if row["status"] == LEFT_OUT else "doubtful"]
     return suspect + ["quality"] * bool(row["quality_flag"])
 
 
@@ -245,7 +246,7 @@ def _words(row: dict[str, Any]) -> str:
         off = _signed(row["phase_deg"] - row["phase_required_deg"])
         words += f"; {off}° from what |E*| alone requires (standard error {row['std_error_deg']:.1f}°)"
     if row["reasons"]:
-        words += f"; suspect, {'used' if row['used'] else 'not used'}: {row['reasons']}"
+        words += f"; {row['status']}: {row['reasons']}"
     return said((row["specimen"], row["isotherm_C"], row["frequency_Hz"]), words)
 
 

@@ -261,7 +261,7 @@ def _way(paths: Sequence[Path]) -> dict[str, Any]:
 
 def _suspect(one: dict[str, Any]) -> list[str]:
     where = [one["specimen"], place_name(one["temperature_C"]), f"{one['frequency_Hz']:g} Hz"]
-    return [*where, "yes" if one["used"] else "no", typeset("; ".join(one["reasons"]))]
+    return [*where, one["status"], typeset("; ".join(one["reasons"])), one["decided_by"]]
 
 
 def _members(names: list[str]) -> list[str]:

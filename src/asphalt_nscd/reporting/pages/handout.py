@@ -114,7 +114,8 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf.text_block(value(content["reported"]))
     pdf.set_font(FONT, size=SIZE)
     pdf.text_block(
-        "In brackets: 95 % intervals. Points: tests as measured. Line and values: the mix, without the faults below."
+        "In brackets: 95 % intervals. Points: tests as measured. Line and values: the mix; certain faults are taken "
+        "off, possible ones by their probability."
     )
     pdf.picture(*_pictures(folder, content))
     pdf.heading("|E*| in MPa and phase in ° over temperature and frequency")
@@ -143,7 +144,7 @@ def _about(content: dict[str, Any], title: str, heading: Heading) -> list[tuple[
         "kind of test": kind[:1].upper() + kind[1:],
         "specimens": ", ".join(reading["specimens"]),
         "temperatures": typeset(f"{temperatures} degC"),
-        "tests": str(content["tests"] + sum(not one["used"] for one in content["suspect_tests"])),
+        "tests": str(content["tests"] + content["trust"]["not_used"]),
     }
     return [(name.capitalize(), text) for name, text in (said | tested).items() if text]
 
@@ -186,7 +187,7 @@ def _grid(pdf: _Report, table: pd.DataFrame) -> None:
                 line.cell(_interval(row), style=None if row.within_the_tests else grey)
     pdf.set_font(FONT, size=SIZE)
     if not table["within_the_tests"].all():
-        pdf.text_block("Grey: extrapolated, no test was made near it.")
+        pdf.text_block("Grey: no test was made near it; by the law of the mix with its band.")
 
 
 def _interval(row: Any) -> str:
@@ -210,14 +211,14 @@ def _findings(content: dict[str, Any], wanted: Sequence[str]) -> list[tuple[str,
 
 def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
     """Tests that were not used or are doubtful, and why."""
-    told = table[(table["status"] != "used") | (table["doubts"] != "")]
+    told = table[table["status"] != "used"]
     if told.empty:
         pdf.text_block(f"No test was left out: all {len(table)} were used.")
         return
-    groups = told.groupby(["specimen", "temperature_C", "status", "doubts"], sort=False)["frequency_Hz"]
+    groups = told.groupby(["specimen", "temperature_C", "status", "reasons"], sort=False)["frequency_Hz"]
     lines = [
-        (specimen, place_name(at), joined([f"{f:g}" for f in hertz]), status, typeset(doubts))
-        for (specimen, at, status, doubts), hertz in groups
+        (specimen, place_name(at), joined([f"{f:g}" for f in hertz]), status, typeset(reasons))
+        for (specimen, at, status, reasons), hertz in groups
     ]
     pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
 
