@@ -1,7 +1,7 @@
 """The answer on one screen: each row says what the content holds, and rows with nothing to say are left out."""
 
 import pytest
-from contents import SURE
+from contents import SOUND, SURE
 from test_sentences import content, part_left
 
 from asphalt_nscd.diagnosis.words.brief import AVERAGED, MOST, WIDTH, rows, text
@@ -13,7 +13,8 @@ def found(ladder=(), **then):
     """Content of tests with nothing in them but what is given."""
     found = content(then.pop("used", 0), out := then.pop("out", 0)) | {"ladder": list(ladder)} | then
     trust = {"use": found["tests"], "check": 0, "held_back": 0, "not_used": out, "use_by_specimen": {}}
-    return found | {"trust": trust | then.get("trust", {})}
+    read = SOUND["reading"] | then.get("reading", {})
+    return found | {"trust": SOUND["trust"] | trust | then.get("trust", {}), "reading": read}
 
 
 def answer(ladder=(), **then):
@@ -23,7 +24,7 @@ def answer(ladder=(), **then):
 
 def rung(cause, value, unit, std_error=0.1, **then):
     size = {"value": value, "std_error": std_error, "unit": unit}
-    gain = {"in_sample": {"averages_by_temperature": {}}}
+    gain = {"in_sample": {"averages_by_temperature": {}}, "held_out": {}}
     return SURE | {
         "probability": 0.97,
         "cause": cause,
@@ -43,6 +44,7 @@ def faults(*found, **then):
 
 def test_of_sound_tests_little_is_said():
     assert answer() == {
+        "Tests": ["Two-point bending of trapezoids: specimen A at 4, 12, 20 and 35 degC."],
         "Data": ["All 72 tests can be used."],
         "Fault": ["None found."],
         "Law": ["One Burgers law for each temperature fits these tests to within their scatter; nothing is left to "
@@ -294,15 +296,16 @@ def test_what_the_sizes_left_over_include_is_a_sentence_of_its_own():
 
 def test_orders_stand_with_purpose_and_hours():
     order = {
-        "act": "test specimen A again, 0.1 to 25 Hz (6 frequencies)",
+        "half_strain": True,
+        "act": "test specimen A again",
         "frequencies_Hz": [0.1, 0.5, 1.0, 5.0, 10.0, 25.0],
         "purpose": "to replace the doubtful test",
         "hours": 2.5,
     }
-    at_once = {"act": "run this again", "frequencies_Hz": [], "purpose": "", "hours": 0.0}
-    assert answer(instructions={"orders": [order, at_once]})["Next tests"] == [
-        "1. Test specimen A again, all frequencies, to replace the doubtful test (2.5 h).",
-        "2. Run this again.",
+    few = order | {"half_strain": False, "frequencies_Hz": [1.0], "hours": 0.5}
+    assert answer(instructions={"orders": [order, few]})["Next tests"] == [
+        "1. Test specimen A again, all frequencies, at half the strain, to replace the doubtful test (2.5 h).",
+        "2. Test specimen A again, 1 Hz, to replace the doubtful test (0.5 h).",
     ]
 
 
@@ -344,10 +347,16 @@ def test_what_the_tests_left_out_would_name_is_told_where_it_is_something_else()
 
 
 def test_a_cause_that_makes_the_fit_worse_is_not_in_the_answer():
-    fits = {"in_sample": {"averages_by_temperature": {}, "rms_over_scatter": {"before": 2.0, "after": 3.0}}}
+    fits = {
+        "in_sample": {"averages_by_temperature": {}, "rms_over_scatter": {"before": 2.0, "after": 3.0}},
+        "held_out": {},
+    }
     worse = rung("phase_offset", 1.5, "deg", established=False) | {"gain": fits}
     assert faults(worse)[:2] == (["None found."], None)
-    better = {"in_sample": {"averages_by_temperature": {}, "rms_over_scatter": {"before": 3.0, "after": 2.0}}}
+    better = {
+        "in_sample": {"averages_by_temperature": {}, "rms_over_scatter": {"before": 3.0, "after": 2.0}},
+        "held_out": {},
+    }
     assert faults(worse | {"gain": better})[0] == ["None is certain."]
 
 

@@ -9,11 +9,11 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 from jsonschema import Draft202012Validator
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis import run
+from asphalt_nscd.diagnosis.content import schema
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.record.reading import reading
 from asphalt_nscd.diagnosis.record.report import physical_limits
@@ -22,7 +22,7 @@ from asphalt_nscd.diagnosis.screening.within_isotherm import leave_one_out
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.search.ladder import Ladder
 from asphalt_nscd.diagnosis.words.brief import rows
-from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, read_diagnosis
+from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 from asphalt_nscd.table_import.campaign import read_campaign
@@ -34,7 +34,7 @@ EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
 FEW = run.Draws(500)
 # Of the specimens in which no test contradicts its isotherm: such a table is diagnosed twice.
 SOUND = sorted(path for name in ("A", "C") for path in EXPORTS.glob(f"Mix-{name}-*.csv"))
-SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))
+SCHEMA = schema()
 
 
 def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
@@ -79,14 +79,14 @@ def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
 
 def test_a_specimen_that_lacks_a_temperature_of_the_others_is_named():
     observed, _ = read_observations(read_campaign([EXPORTS])[0], PAPER_GEOMETRY)
-    assert "not_tested" not in reading(observed, [], [])
+    assert reading(observed, [], [])["not_tested"] == []
     lacking = (observed.specimen == 1) & (observed.isotherm == 20)
     assert reading(observed.subset(np.flatnonzero(~lacking)), [], [])["not_tested"] == [
         "specimen Mix-B at 20 degC"
     ]
     alone = observed.isotherm != 20
     alone |= observed.specimen == 1
-    assert "not_tested" not in reading(observed.subset(np.flatnonzero(alone)), [], [])
+    assert not reading(observed.subset(np.flatnonzero(alone)), [], [])["not_tested"]
 
 
 def test_an_isotherm_off_its_target_is_to_be_checked_and_tested_again_first(tmp_path):

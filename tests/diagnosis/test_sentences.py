@@ -205,9 +205,10 @@ def test_one_temperature_has_no_slope_over_it():
     found = SOUND | {
         "verdict": "unexplained_structure", "scatter": {}, "lack_of_fit_p_value": 1e-9,
         "largest_pattern_left": {"pattern": "specimen X, slope over temperature, modulus", "z": 6.18, "p_value": 1e-9},
-        "reading": {"isotherms_C": [20.0]},
+        "reading": {"isotherms_C": [20.0], "specimens": ["A"]},
         "unexplained": [{
-            "temperature_C": 20.0, "frequency_Hz": 10.0, "residual_E_percent": -6.21, "residual_phase_deg": 0.31,
+            "specimen": None, "temperature_C": 20.0, "frequency_Hz": 10.0, "residual_E_percent": -6.21,
+            "residual_phase_deg": 0.31,
             "z": 6.2,
         }],
     }  # fmt: skip

@@ -136,12 +136,14 @@ def test_a_law_that_predicts_badly_is_warned_of(coldest, inner, told, where):
         for t, error in (("37", 9.0), ("-4", coldest), ("21", inner))
     }
     held_out = {"leave_one_isotherm_out": {"averages_by_temperature": by}}
-    found = SOUND | {"ladder": [{"gain": {"in_sample": {}, "held_out": held_out}}]}
+    found = SOUND | {"ladder": [{"where": None, "gain": {"in_sample": {}, "held_out": held_out}}]}
     said = " ".join(verdict.extrapolation_warning(found))
     assert said.endswith(told) and bool(said) == bool(told)
     assert verdict.predicted_badly(found) == where
     one = {"leave_one_isotherm_out": {"averages_by_temperature": {"21": by["21"]}}}
-    alone = verdict.extrapolation_warning(SOUND | {"ladder": [{"gain": {"in_sample": {}, "held_out": one}}]})
+    alone = verdict.extrapolation_warning(
+        SOUND | {"ladder": [{"where": None, "gain": {"in_sample": {}, "held_out": one}}]}
+    )
     assert bool(alone) == (inner > 10.0)  # one temperature is both ends
     assert verdict.extrapolation_warning(SOUND) == []
     assert verdict.predicts_badly(held_out["leave_one_isotherm_out"], inner=True) == (inner > 10.0)

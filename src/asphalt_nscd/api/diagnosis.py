@@ -89,7 +89,7 @@ class Diagnosis:
         # An empty cell of a CSV is a NaN to pandas, and a NaN is true: each test would be suspect.
         tables[1]["reasons"] = tables[1]["reasons"].fillna("")
         law = read_json(folder / "law.json") if is_file(folder / "law.json") else None
-        return cls(Outcome(content, tables[0], tables[1], law))
+        return cls(Outcome(dict(content), tables[0], tables[1], law))
 
     @property
     def content(self) -> Mapping[str, Any]:
@@ -98,7 +98,7 @@ class Diagnosis:
         Returns
         -------
         mapping
-            Its keys are described in diagnosis/diagnosis.schema.yaml.
+            Its keys are described in diagnosis/content.py.
         """
         return self.outcome.content
 
@@ -122,7 +122,7 @@ class Diagnosis:
         tuple of str
             Sentences.
         """
-        return (*self.content.get("reading", {}).get("notes", ()), *self.content["notes"])
+        return (*self.content["reading"]["notes"], *self.content["notes"])
 
     @property
     def ladder(self) -> pd.DataFrame:
@@ -201,7 +201,7 @@ class Diagnosis:
             One row for each law that can be fitted: its number of parameters, mean relative errors [%], and
             whether it is `law`.
         """
-        return pd.DataFrame(self.content.get("laws", []))
+        return pd.DataFrame(self.content["laws"])
 
     @cached_property
     def law(self) -> Law | None:

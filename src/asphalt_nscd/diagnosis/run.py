@@ -160,7 +160,7 @@ def conclude(
             *law.notes(diagnosis, [*odd.words, *at] if content["trust"]["held_back"] else []),
             *notes,
         ]
-        content |= {"undetermined": said} if said else {}
+        content["undetermined"] = said
     progress("Diagnose", 3, STEPS)
     notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
@@ -239,7 +239,12 @@ def _begin_with_campaigns(
             common = gain.nearest(diagnosis, diagnosis.ladder.start, specimen)
             errors = gain.averages(diagnosis, after, common)
             law["gain"]["in_sample"]["averages_by_temperature"] = errors
-    content["ladder"][:0] = [] if rung is None else [rung]
+    of_tests: dict[str, Any] = {
+        "probability": None,
+        "taken_off": 0.0,
+        "log10_shift": {},
+    }  # which no simulation has
+    content["ladder"][:0] = [] if rung is None else [rung | of_tests]
     return before
 
 

@@ -193,7 +193,8 @@ class Results:
             },
         }
         rung = {"where": None, "p_value": 1e-9, "as_good": [], "sentence": "s", "confirmed_by": "c"}
-        rung |= {"established": True, "hangs_on": [], "doubts": []}
+        rung |= {"established": True, "hangs_on": [], "doubts": [], "probability": 0.97, "taken_off": 0.0}
+        rung |= {"evidence": "", "log10_shift": {}}
         rung["gain"] = {"in_sample": gain, "held_out": {"leave_one_frequency_out": gain}}
         spectrum = {"wlf_C1": {"value": 12.0, "std_error": None, "unit": "1"}}
         clamp = {"compliance": {"value": 3e-12, "std_error": 2e-13, "unit": "1/Pa"}}
@@ -232,7 +233,10 @@ class Results:
             },
             "estimates": {}, "estimates_spread": 1.0, "discrepancy": [], "repeatability": None, "with_suspects": None,
             "without_doubtful": None, "instructions": {"costs": "", "orders": []}, "contradictory_isotherms": [],
-            "trust": {"use": 12, "check": 0, "held_back": 0, "not_used": 0, "use_by_specimen": {}}, "one_sided": "",
+            "trust": {"use": 12, "check": 0, "held_back": 0, "not_used": 0, "check_at_C": [], "check_of": [],
+                      "use_by_specimen": {}},
+            "one_sided": "", "highest_frequency": None, "law_misses": None, "laws": [], "law_parameters": {},
+            "undetermined": "", "measured_limits": {}, "excess_phase": [],
             "odd_levels": [],
             "odd_phases": [], "odd_temperatures": [], "suspect_tests": [], "detection_limits_of_one_place": {},
             "reported": {
@@ -241,7 +245,7 @@ class Results:
             },
             "reading": {
                 "test_type": "bending", "specimens": ["1", "2"], "isotherms_C": [0.0, 20.0], "quality_columns": [],
-                "limits_exceeded": [], "notes": [],
+                "limits_exceeded": [], "notes": [], "off_target": [], "not_tested": [], "files_without_tests": [],
             },
         }  # fmt: skip
         write_json(path := self.folder / "diagnosis.json", content | changes)

@@ -42,9 +42,9 @@ def reading(
         "quality_columns": [name for name in quality.COLUMNS if name in observed.quality],
         "limits_exceeded": above,
         "notes": [*notes, *together, *_quality_notes(above, observed)],
-        **({"off_target": list(off_target)} if off_target else {}),
-        **({"not_tested": gaps} if (gaps := _gaps(observed)) else {}),
-        **({"files_without_tests": list(without_tests)} if without_tests else {}),
+        "off_target": list(off_target),
+        "not_tested": _gaps(observed),
+        "files_without_tests": list(without_tests),
     }
 
 

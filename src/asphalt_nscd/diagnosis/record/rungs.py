@@ -43,7 +43,9 @@ def cause_rung(
         "taken_off": shares(diagnosis, rung)[0][0],
         "hangs_on": diagnosis.ladder.hangs_on.get(rung.candidate.key, []),
         "doubts": diagnosis.doubts.get(rung.candidate.key, []),
+        "log10_shift": {},
         "sentence": rung.candidate.cause.sentence,
+        "evidence": "",
         "confirmed_by": rung.candidate.cause.confirmed_by,
     }
 
@@ -97,10 +99,13 @@ def law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -
         "p_value": diagnosis.baseline_p,
         "gain": {"in_sample": gain.compare_errors(diagnosis, before, after), "held_out": held_out},
         "as_good": [],
+        "probability": None,
         "established": not diagnosis.too_few,
+        "taken_off": 0.0,
         "hangs_on": [],
         "doubts": [],
         "sentence": "the mix relaxes over many decades of time; one Burgers law for each temperature has two times",
+        "evidence": "",
         "confirmed_by": "tests over more decades of frequency, or creep at the warmest temperature",
     }
 

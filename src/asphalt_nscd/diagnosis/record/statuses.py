@@ -132,19 +132,16 @@ def counts(table: pd.DataFrame, isotherms: Sequence[float]) -> dict[str, Any]:
         "check_of": [name for name, own in use.groupby(table["specimen"]) if not own.any()],
     }
     columns = {"check_at_C": table["temperature_C"], "check_of": table["specimen"]}
-    where = {
-        name: places
-        for name, places in of.items()
-        if check.any()
-        and not (check & ~columns[name].isin(places)).any()
-        and len(places) < columns[name].nunique()
-    }
+    for name, column in columns.items():
+        every = len(of[name]) == column.nunique()
+        if not check.any() or every or (check & ~column.isin(of[name])).any():
+            of[name] = []
     return {
         "use": int(use.sum()),
         "check": int(check.sum()),
         "held_back": int((table["status"] == HELD_BACK).sum()),
         "not_used": int(out.sum()),
-        **dict([*where.items()][:1]),
+        **of,
         "use_by_specimen": {str(name): int(own.sum()) for name, own in use.groupby(table["specimen"])},
     }
 

@@ -18,7 +18,7 @@ def answer(content: Content) -> str:
 
 def summary(content: Content) -> str:
     """The answer and the reasons, one titled part after another; parts with nothing to say are left out."""
-    read = content.get("reading", {"notes": []})
+    read = content["reading"]
     law, named = sentences.law_of_the_mix(content), sentences.causes(content)
     simulated, two_laws = verdict.simulation_miss(content), verdict.two_laws(content)
     none_named = list(filter(None, [unexplained.absence_note(content)]))

@@ -109,7 +109,7 @@ def simulation_miss(content: Content, left: Mapping[str, float] | None = None) -
 
 def two_laws(content: Content) -> list[str]:
     """What the free master curve and law.json are, and why their errors differ; empty unless both are fitted."""
-    misses = content.get("law_misses")
+    misses = content["law_misses"]
     if misses is None or not named(content, LAW) or bonded(content):
         return []
     unsure = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung["established"]]
@@ -132,7 +132,7 @@ def held_back(content: Content) -> list[str]:
     """What law.json and reported.csv are made without until a check clears it, in words; empty where nothing is."""
     if not content["trust"]["held_back"]:
         return []
-    highest = content.get("highest_frequency")
+    highest = content["highest_frequency"]
     at = [] if highest is None else [f"the tests at {highest['frequency_Hz']:g} Hz"]
     return [*levels.places(*odd(content)), *at]
 
@@ -186,7 +186,7 @@ def _cannot_judge(content: Content) -> str:
     """Why tests without a finding do not say that the simulation is right, and what to add."""
     if not sentences.alone(content):
         return TWO_FREQUENCIES
-    single = len(content.get("reading", {}).get("specimens", [])) == 1
+    single = len(content["reading"]["specimens"]) == 1
     lacking = "One specimen" if single else "Specimens without a common temperature and frequency"
     return (
         f"{lacking} cannot judge a law: nothing was found, but the scatter from test to test is not known. Test "
@@ -213,7 +213,7 @@ def _misfit_beyond_bonds(content: Content) -> str:
 def _left_out(content: Content) -> tuple[dict[float, float], float] | None:
     """Errors of |E*| in percent of each isotherm predicted from the others, and their mean between the two ends."""
     rungs = content["ladder"]
-    gain = rungs[-1]["gain"].get("held_out", {}).get("leave_one_isotherm_out") if rungs else None
+    gain = rungs[-1]["gain"]["held_out"].get("leave_one_isotherm_out") if rungs else None
     if gain is None:
         return None
     errors = {float(t): one["mre_E_percent"]["after"] for t, one in gain["averages_by_temperature"].items()}
@@ -257,10 +257,10 @@ def _two(error: float) -> str:
 def _wrong(temperature: float, content: Content) -> bool:
     """Whether a cause is named at an isotherm, or the isotherm contradicts itself."""
     broken = [one["temperature_C"] for one in content["contradictory_isotherms"]]
-    return temperature in [*broken, *(rung.get("where") for rung in content["ladder"])]
+    return temperature in [*broken, *(rung["where"] for rung in content["ladder"])]
 
 
-def predicts_badly(gain: dict[str, Any], inner: bool) -> bool:
+def predicts_badly(gain: Mapping[str, Any], inner: bool) -> bool:
     """Whether errors at what is left out exceed POOR percent and MUCH_WORSE times those before.
 
     The fit before may have seen what is left out. `inner` counts only temperatures between others.
@@ -271,4 +271,4 @@ def predicts_badly(gain: dict[str, Any], inner: bool) -> bool:
 
 def files(content: Content) -> str:
     """A sentence for each file of a folder that gave no test; empty where all did."""
-    return " ".join(content.get("reading", {}).get("files_without_tests", []))
+    return " ".join(content["reading"]["files_without_tests"])

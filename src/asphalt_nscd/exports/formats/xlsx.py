@@ -97,7 +97,7 @@ def corrected_workbook(folder: Path) -> Path:
         "Master curve": pd.read_csv(folder / "master_curve.csv"),
     }
     content = read_diagnosis([folder / "diagnosis.json"])
-    if "law_parameters" in content:
+    if content["law_parameters"]:
         sheets["Law"] = pd.DataFrame(
             [
                 (
@@ -207,7 +207,7 @@ def _measured(card: Card, tests: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def _diagnosis(book: Workbook, content: dict[str, Any]) -> None:
+def _diagnosis(book: Workbook, content: Mapping[str, Any]) -> None:
     """Suspect tests and unexplained conditions, where the diagnosis has any, and its notes."""
     for key, title in (("suspect_tests", "Suspects"), ("unexplained", "Unexplained")):
         if content.get(key):

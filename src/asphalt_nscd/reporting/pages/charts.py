@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -60,9 +60,7 @@ def charts(
 ) -> dict[str, Chart]:
     """By name: "law" (master curve), "specimens" (Black diagram), "causality" and "residuals" (maps)."""
     content, used, tests = read_diagnosis(diagnosis), read_residuals(residuals), read_causality(causality)
-    stated = [
-        float(at) for at in content.get("reading", {}).get("isotherms_C") or used["temperature_C"].unique()
-    ]
+    stated = [float(at) for at in content["reading"]["isotherms_C"]]
     used = used.assign(isotherm_C=panels.isotherm_of(used["temperature_C"], stated))
     means = conditions(used.assign(temperature_C=used["isotherm_C"]), content["scatter"])
     tests = tests.assign(isotherm_C=panels.isotherm_of(tests["temperature_C"], stated))
@@ -201,13 +199,13 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
     )
 
 
-def _marks(row: dict[str, Any]) -> list[str]:
+def _marks(row: Mapping[str, Any]) -> list[str]:
     suspect = [] if not row["reasons"] else ["not used" if row["status"] == LEFT_OUT else "doubtful"]
     return suspect + ["quality"] * bool(row["quality_flag"])
 
 
 @style.journal
-def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: dict[str, float]) -> Chart:
+def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: Mapping[str, Any]) -> Chart:
     plots = []
     for quantity, (name, unit) in {"E": ("|E*|", "%"), "phase": ("phase", "°")}.items():
         for when in BEFORE_AFTER:
@@ -223,7 +221,7 @@ def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: dict[str, floa
     return Chart("residuals", "Residual map", caption, plots, HINT.replace("test", "condition"))
 
 
-def _condition(row: dict[str, Any], tests: pd.DataFrame, shown: tuple[str, str, str, str]) -> str:
+def _condition(row: Mapping[str, Any], tests: pd.DataFrame, shown: tuple[str, str, str, str]) -> str:
     name, unit, column, when = shown
     own = tests[
         (tests["isotherm_C"] == row["temperature_C"]) & (tests["frequency_Hz"] == row["frequency_Hz"])
@@ -236,7 +234,7 @@ def _condition(row: dict[str, Any], tests: pd.DataFrame, shown: tuple[str, str, 
     )
 
 
-def _words(row: dict[str, Any]) -> str:
+def _words(row: Mapping[str, Any]) -> str:
     modulus, phase = three_digits(float(row["E_MPa"])), minus(f"{row['phase_deg']:.1f}")
     words = (
         f"{specimen_named(str(row['specimen']))}, {celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: "

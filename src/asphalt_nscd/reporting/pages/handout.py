@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from io import BytesIO
 from pathlib import Path
@@ -133,7 +133,7 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     return folder / PDF
 
 
-def _about(content: dict[str, Any], title: str, heading: Heading) -> list[tuple[str, str]]:
+def _about(content: Mapping[str, Any], title: str, heading: Heading) -> list[tuple[str, str]]:
     """Names and values of what was tested, by whom and how; the campaign stands for a mix without a name."""
     reading = content["reading"]
     kind = TEST_TYPES.get(reading["test_type"], "not stated")
@@ -150,7 +150,7 @@ def _about(content: dict[str, Any], title: str, heading: Heading) -> list[tuple[
 
 
 @style.journal
-def _pictures(folder: Path, content: dict[str, Any]) -> list[Any]:
+def _pictures(folder: Path, content: Mapping[str, Any]) -> list[Any]:
     """Master curves of |E*| and phase."""
     tests = read_residuals([folder / "residuals.csv"])
     curve = [path for path in [folder / "master_curve.csv"] if path.is_file()]
@@ -199,7 +199,7 @@ def _interval(row: Any) -> str:
     )
 
 
-def _findings(content: dict[str, Any], wanted: Sequence[str]) -> list[tuple[str, str]]:
+def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[str, str]]:
     """Of the answer the rows with a label of `wanted`, as they are printed."""
     kept = [
         (label, [one for one in said if not any(word in one for word in AT_COMMAND_LINE)])
@@ -223,7 +223,7 @@ def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
     pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
 
 
-def _law(pdf: _Report, content: dict[str, Any]) -> None:
+def _law(pdf: _Report, content: Mapping[str, Any]) -> None:
     found = law(content)
     if found is None:
         return
