@@ -160,24 +160,6 @@ GAIN = {
 }
 
 
-@pytest.mark.parametrize("after,warned", [(40.9, True), (15.0, False), (2.0, False)])
-def test_a_law_that_predicts_worse_than_before_is_warned_of(page, after, warned):
-    errors = dict.fromkeys(("mre_E_percent", "mre_phase_percent"), {"before": 10.8, "after": after})
-    worse = GAIN | {"averages_by_temperature": {"0": errors}}
-    rung = {
-        **SURE,
-        "cause": "relaxation_spectrum",
-        "where": None,
-        "p_value": 0.0,
-        "sentence": "s",
-        "confirmed_by": "c",
-        "gain": {"in_sample": GAIN, "held_out": {"leave_one_isotherm_out": worse}},
-        "parameters": {"reference_temperature": {"value": 20.0, "std_error": None, "unit": "degC"}},
-    }
-    words = "predicted from them. That is more than before: do not use this law there</td>"
-    assert (words in page(ladder=[rung])) == warned
-
-
 def test_without_a_cause_nothing_is_explained(page):
     html = page(verdict="nothing_to_explain", ladder=[])
     assert "nothing is left to explain" in html and "No cause is named." in html

@@ -329,16 +329,10 @@ def _scatter(content: Content) -> list[str]:
 
 
 def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) -> list[str]:
-    """What the law misses, of what it was made, and where not to use it."""
-    where = verdict.predicted_badly(content)
+    """What the law misses, and of what it was made."""
     misses = content["law_misses"]
-    law = "the law" if simulated or misses is None else "law.json"
-    warning = [f"Do not use {law} {where}."] if where and law != "law.json" else []
-    warning += (
-        [f"{sentences.capital(where)} it holds only within its interval."] if where and not warning else []
-    )
     if simulated or misses is None:
-        return [" ".join([_sentence(verdict.simulation_miss(content, left)), *warning])]
+        return [_sentence(verdict.simulation_miss(content, left))]
     modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
     title = next((one["title"] for one in content["laws"] if one["taken"]), "2S2P1D")
     said = [
@@ -359,7 +353,7 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     elif doubtful:
         said.append(f"It was fitted to all tests{but}, doubtful ones too.")
     said += filter(None, [content["undetermined"]])
-    return [" ".join([*said, *warning])]
+    return [" ".join(said)]
 
 
 def _unexplained(content: Content) -> list[str]:

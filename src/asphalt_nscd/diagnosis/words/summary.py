@@ -34,7 +34,6 @@ def summary(content: Content) -> str:
                 sentences.capital(simulated),
                 *two_laws,
                 *([f"{law[0]}. {law[1]}".rstrip()] if law else []),
-                *verdict.extrapolation_warning(content),
             ],
         ),
         ("Causes", [f"{cause}. {sure}" for cause, sure in named] + none_named),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
@@ -37,7 +36,6 @@ TWO_FREQUENCIES = (
     "or more."
 )
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
-MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
 
 
 def mixes(content: Content) -> str:
@@ -210,63 +208,8 @@ def _misfit_beyond_bonds(content: Content) -> str:
     return f"{added * (bonds > content['scatter']['modulus_percent'])}{scatter}{by}"
 
 
-def _left_out(content: Content) -> tuple[dict[float, float], float] | None:
-    """Errors of |E*| in percent of each isotherm predicted from the others, and their mean between the two ends."""
-    rungs = content["ladder"]
-    gain = rungs[-1]["gain"]["held_out"].get("leave_one_isotherm_out") if rungs else None
-    if gain is None:
-        return None
-    errors = {float(t): one["mre_E_percent"]["after"] for t, one in gain["averages_by_temperature"].items()}
-    return errors, mean_averages(gain, inner=True)["mre_E_percent"]["after"]
-
-
-def predicted_badly(content: Content) -> str:
-    """Where the law predicts temperatures left out of its fit with errors above POOR percent, in words; else empty."""
-    found = _left_out(content)
-    if found is None:
-        return ""
-    errors, between = found
-    if between > POOR:
-        return "at temperatures that were not tested"
-    return "beyond the tested temperatures" if max(errors[min(errors)], errors[max(errors)]) > POOR else ""
-
-
-def extrapolation_warning(content: Content) -> list[str]:
-    """A sentence on errors at temperatures left out of the fit, where they forbid to use the law there; else empty."""
-    found = _left_out(content)
-    if found is None or not predicted_badly(content):
-        return []
-    errors, between = found
-    coldest, warmest = min(errors), max(errors)
-    inner = sorted({*errors} - {coldest, warmest})
-    between_them = f"at {inner[0]:g} degC" if len(inner) == 1 else "between them on average"
-    ends = [
-        f"{_two(errors[t])} % at {t:g} degC{' (where these tests are doubtful)' * _wrong(t, content)}"
-        for t in (coldest, warmest)
-    ]
-    return [
-        f"Each temperature was also predicted from the others by {COMMON}. |E*| is then off by {', '.join(ends)} and "
-        f"{_two(between)} % {between_them}."
-    ]
-
-
 def _two(error: float) -> str:
     return f"{float(f'{error:.2g}'):g}"
-
-
-def _wrong(temperature: float, content: Content) -> bool:
-    """Whether a cause is named at an isotherm, or the isotherm contradicts itself."""
-    broken = [one["temperature_C"] for one in content["contradictory_isotherms"]]
-    return temperature in [*broken, *(rung["where"] for rung in content["ladder"])]
-
-
-def predicts_badly(gain: Mapping[str, Any], inner: bool) -> bool:
-    """Whether errors at what is left out exceed POOR percent and MUCH_WORSE times those before.
-
-    The fit before may have seen what is left out. `inner` counts only temperatures between others.
-    """
-    found = mean_averages(gain, inner)
-    return any(errors["after"] > max(MUCH_WORSE * errors["before"], POOR) for errors in found.values())
 
 
 def files(content: Content) -> str:

@@ -96,7 +96,9 @@ def _reduced(tests: pd.DataFrame, nominal: list[float], shift: dict[float, float
 def _law(curve: Sequence[Path]) -> pd.DataFrame:
     """The law of law.json with its bands, else the free master curve."""
     table = read_csv(only_file(curve, "master curve"))
-    frame = pd.DataFrame({name: table.numbers(name) for name in table.columns})
+    numbers = [name for name in table.columns if name != "averaged_over"]
+    # A band that is not known is empty.
+    frame = pd.DataFrame({name: table.numbers_or_nan(name) for name in numbers}).dropna(axis=1, how="all")
     own = {name: name.removeprefix("law_") for name in frame if name.startswith("law_")}
     frame = frame.rename(columns={"frequency_Hz": "reduced_Hz"})
     return frame[["reduced_Hz", *own]].rename(columns=own) if own else frame

@@ -30,7 +30,6 @@ from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_
 
 TEMPLATE, PAGE = "diagnosis_page.html", "diagnosis.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
-NOT_THERE = ". That is more than before: do not use this law there"
 INNER = "leave_one_isotherm_out"
 HELD_OUT = {
     "leave_one_isotherm_out": "each temperature between others predicted from them",
@@ -91,9 +90,7 @@ def sections(
         # Table 4 is of the paper's mix: beside measurements of another it says nothing.
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
-        "ladder": [
-            _rung(rung, rung is rungs[-1], content) | {"as_good": _members(rung["as_good"])} for rung in rungs
-        ],
+        "ladder": [_rung(rung, content) | {"as_good": _members(rung["as_good"])} for rung in rungs],
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
         "law": law(content),
@@ -130,7 +127,6 @@ def first(content: Mapping[str, Any], ladder: Sequence[Path] = ()) -> dict[str, 
         "doubtful": sentences.doubtful_change(content),
         "law": sentences.law_of_the_mix(content),
         "of_intervals": sentences.interval_note(content),
-        "beyond": verdict.extrapolation_warning(content),
         "causes": sentences.causes(content),
         "no_cause": unexplained.absence_note(content),
         "of_what_is_left": unexplained.OF_WHAT_IS_LEFT,
@@ -216,8 +212,8 @@ def _table4(paths: Sequence[Path]) -> list[list[str]]:
     return [[place_name(row[0]), *map(_number, row[1:])] for row in frame.itertuples(index=False)]
 
 
-def _rung(rung: Mapping[str, Any], last: bool, content: Mapping[str, Any]) -> dict[str, Any]:
-    """A row of the ladder; after the last, whether the law may be used where nothing was tested."""
+def _rung(rung: Mapping[str, Any], content: Mapping[str, Any]) -> dict[str, Any]:
+    """A row of the ladder."""
     gain = rung["gain"]
     # How bonds carry the law is computed, and widened by no scatter of the tests.
     factor = 1.0 if rung["cause"] == BOND_MAPPING else sentences.widened(content)
@@ -231,9 +227,7 @@ def _rung(rung: Mapping[str, Any], last: bool, content: Mapping[str, Any]) -> di
         "doubts": rung["doubts"],
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {
-            HELD_OUT[name] + _warning(last, gain["held_out"][name], name == INNER): _gain(
-                gain["held_out"][name], name == INNER
-            )
+            HELD_OUT[name]: _gain(gain["held_out"][name], name == INNER)
             for name in HELD_OUT
             if name in gain["held_out"]
         },
@@ -275,11 +269,6 @@ def _cause(rung: Mapping[str, Any]) -> str:
 
 def _estimate(name: str, estimate: Mapping[str, Any], factor: float) -> str:
     return typeset(f"{name.replace('_', ' ')} {sentences.estimate(estimate, factor)}")
-
-
-def _warning(last: bool, gain: Mapping[str, Any], inner: bool) -> str:
-    """Of the last law, the others being steps on the way to it."""
-    return NOT_THERE if last and verdict.predicts_badly(gain, inner) else ""
 
 
 def _gain(gain: Mapping[str, Any], inner: bool = False) -> list[str]:
