@@ -29,7 +29,7 @@ MOST = 4  # sentences of a row; a reader finds the others in the reasons
 PARTS = 2  # of what stays unexplained
 FEW = 6  # specimens that are named one by one
 _wrapped = partial(wrap, width=WIDTH, break_long_words=False, break_on_hyphens=False)
-AVERAGED = "law.json and reported.csv weigh both, with it and without; corrected.csv holds it."
+AVERAGED = "values of the mix weigh both, with it and without; corrected tests keep it."
 MORE = "{} more: see the reasons."
 TYPE_NOT_GIVEN = (
     "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. Say whether it "
