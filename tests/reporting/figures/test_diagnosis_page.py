@@ -79,6 +79,7 @@ def test_published_table_stands_beside_reconstructed_data_only(page, tmp_path):
 
 def test_what_stays_unexplained_is_said(page):
     miss = {
+        "specimen": None,
         "temperature_C": 20.0,
         "frequency_Hz": 3.0,
         "residual_E_percent": -15.13,
@@ -130,6 +131,7 @@ def test_rivals_and_text_from_the_table_are_shown_as_text(page):
 
 def test_without_replicates_nothing_is_called_right_or_established(page, results):
     alone = {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": False}
+    alone["air_voids"] = None
     assert "and what changes from one mounting to the next. Everything" in page()
     html = page(verdict="nothing_to_explain", ladder=[], tested=False, scatter=alone)
     assert (
@@ -149,7 +151,15 @@ def test_without_replicates_nothing_is_called_right_or_established(page, results
     assert "Not certain: only 2 temperatures were tested, and certainty takes 4." in html
 
 
-SURE = {"as_good": [], "established": True, "taken_off": 1.0, "hangs_on": [], "doubts": []}
+SURE = {
+    "as_good": [],
+    "established": True,
+    "taken_off": 1.0,
+    "hangs_on": [],
+    "doubts": [],
+    "probability": None,
+}
+SURE |= {"evidence": "", "log10_shift": {}}
 GAIN = {
     **dict.fromkeys(
         ("mre_E_percent", "mre_phase_percent", "rms_over_scatter"), {"before": 2.0, "after": 1.0}
@@ -192,7 +202,15 @@ def test_what_a_laboratory_is_to_do_stands_on_the_page(page):
         instructions={"costs": "Counted: 2 h.", "orders": [order]},
         suspect_tests=[suspect],
         with_suspects=other,
-        trust={"use": 12, "check": 0, "held_back": 0, "not_used": 1, "use_by_specimen": {}},
+        trust={
+            "use": 12,
+            "check": 0,
+            "held_back": 0,
+            "not_used": 1,
+            "check_at_C": [],
+            "check_of": [],
+            "use_by_specimen": {},
+        },
     )
     assert "<b>2.5 h: test specimens A and B at −6 °C, 25 Hz.</b> It shows as 7.1°." in html
     assert "<p>12 of 13 tests can be used, 1 cannot.</p>" in html

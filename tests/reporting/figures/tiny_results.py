@@ -193,7 +193,7 @@ class Results:
             },
         }
         rung = {"where": None, "p_value": 1e-9, "as_good": [], "sentence": "s", "confirmed_by": "c"}
-        rung |= {"established": True, "hangs_on": [], "doubts": [], "probability": 0.97, "taken_off": 0.0}
+        rung |= {"established": True, "hangs_on": [], "doubts": [], "probability": None, "taken_off": 0.0}
         rung |= {"evidence": "", "log10_shift": {}}
         rung["gain"] = {"in_sample": gain, "held_out": {"leave_one_frequency_out": gain}}
         spectrum = {"wlf_C1": {"value": 12.0, "std_error": None, "unit": "1"}}
@@ -215,7 +215,8 @@ class Results:
             },
             "ladder": [
                 rung | {"cause": "relaxation_spectrum", "parameters": spectrum, "log10_shift": {"0": 2.0, "20": 0.0}},
-                rung | {"cause": "loose_clamp", "where": "2", "parameters": clamp, "taken_off": 1.0},
+                rung | {"cause": "loose_clamp", "where": "2", "parameters": clamp, "taken_off": 1.0,
+                        "probability": 0.97},
             ],
             "withdrawn": [], "indistinguishable": [["loose_clamp of all specimens", "relaxation_spectrum"]],
             "not_testable": [{"cause": "damage", "needs": "the order of the tests"}],
