@@ -25,8 +25,8 @@ def test_causes_stand_with_size_unit_chance_and_gains(page):
     assert '<th scope="row">Data</th><td class="words"><p>All 12 tests can be used.</p></td>' in html
     assert "<p>Loose clamp of specimen 2, 3.00 ± 0.39 1/TPa.</p>" in html
     assert (
-        "<b>loose clamp of specimen 2: 3.00 ± 0.39 1/TPa</b>. Established: the chance that scatter alone"
-        in html
+        "<b>loose clamp of specimen 2: 3.00 ± 0.39 1/TPa</b>. Established, with a probability of 97 %: the chance "
+        "that scatter alone" in html
     )
     assert "compliance 3.00 ± 0.39 1/TPa" in html and "<td>below 1e-06</td>" in html
     assert "<td>fitted</td><td>8 → 2</td>" in html
@@ -157,7 +157,7 @@ SURE = {
     "taken_off": 1.0,
     "hangs_on": [],
     "doubts": [],
-    "probability": None,
+    "probability": 0.97,
 }
 SURE |= {"evidence": "", "log10_shift": {}}
 GAIN = {
