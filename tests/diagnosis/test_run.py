@@ -18,7 +18,6 @@ from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observa
 from asphalt_nscd.diagnosis.record.reading import reading
 from asphalt_nscd.diagnosis.record.report import physical_limits
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
-from asphalt_nscd.diagnosis.screening.within_isotherm import leave_one_out
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.search.ladder import Ladder
 from asphalt_nscd.diagnosis.words.brief import rows
@@ -268,7 +267,7 @@ def test_metal_comes_first_where_phases_lie_on_one_side(monkeypatch):
     monkeypatch.setattr(run.suspects, "one_sided", lambda *_: told)
 
     def without_a_cause(observed, *_, **__):
-        return replace(diagnose(table(4), draws=500), left_out=leave_one_out(observed))
+        return diagnose(observed, catalogue=(), draws=500)
 
     monkeypatch.setattr(run, "diagnose", without_a_cause)
     content = run.conclude(read_campaign(SOUND)[0], PAPER_GEOMETRY, draws=FEW).content
