@@ -22,6 +22,12 @@ Positive = Annotated[float, Meta(gt=0)]
 NotNegative = Annotated[float, Meta(ge=0)]
 Probability = Annotated[float, Meta(ge=0, le=1)]
 Interval = Annotated[list[float], Meta(min_length=2, max_length=2)]
+# Status of a test:
+USED = "used"
+DOUBTFUL = "doubtful"  # used, but to be checked first
+HELD_BACK = "held back"  # from law.json and what is reported, until a check clears it
+LEFT_OUT = "left out"  # cannot be used
+ITSELF = "its own isotherm"  # what decides: the other frequencies of the same specimen
 Verdict = Literal["explained", "unexplained_structure", "nothing_to_explain"]
 
 

@@ -8,11 +8,11 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from asphalt_nscd.diagnosis.content import LEFT_OUT
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
 from asphalt_nscd.diagnosis.record.law import LawOfMix
 from asphalt_nscd.diagnosis.record.mixture import Mixture, averaged_over
-from asphalt_nscd.diagnosis.record.statuses import LEFT_OUT
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.rheology.spectrum import Spectrum
 from asphalt_nscd.rheology.spectrum_io import Uncertainty

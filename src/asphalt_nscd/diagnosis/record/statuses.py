@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from asphalt_nscd.diagnosis.content import DOUBTFUL, HELD_BACK, ITSELF, LEFT_OUT, USED
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.screening import levels, suspects
@@ -18,12 +19,7 @@ from asphalt_nscd.measurements.campaign import OFF_TARGET
 
 Rows = NDArray[np.bool_]
 Entries = list[dict[str, Any]]
-USED = "used"
-DOUBTFUL = "doubtful"  # used, but to be checked first
-HELD_BACK = "held back"  # from law.json and what is reported, until a check clears it
-LEFT_OUT = "left out"  # cannot be used
 STATUSES = (USED, DOUBTFUL, HELD_BACK, LEFT_OUT)
-ITSELF = "its own isotherm"  # what decides: the other frequencies of the same specimen
 
 
 @dataclass(frozen=True)

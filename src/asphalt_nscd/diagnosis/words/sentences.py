@@ -12,8 +12,8 @@ import numpy as np
 
 from asphalt_nscd.diagnosis import written
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.content import ITSELF, LEFT_OUT
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
-from asphalt_nscd.diagnosis.record.statuses import ITSELF, LEFT_OUT
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import shown, three_digits
 from asphalt_nscd.files.words import counted, joined, specimen_named
