@@ -98,11 +98,16 @@ def test_a_possible_cause_is_not_shown_as_a_certain_one(tmp_path):
     }
     reported |= {"phase_deg": 20.0, "phase_low_deg": 19.0, "phase_high_deg": 21.0}
     one = SimpleNamespace(
-        content={"ladder": ladder, "reported": reported, "tests": 24},
+        content={
+            "ladder": ladder,
+            "reported": reported,
+            "tests": 24,
+            "trust": {"check": 6, "not_used": 1},
+        },
         verdict="identified",
-        suspects=pd.DataFrame({"used": [True]}),
     )
     table = Comparison({"mix": one, "other": one}).table
+    assert table[["check_first", "left_out"]].to_numpy().tolist() == [[6, 1]] * 2
     assert table["causes"].tolist() == ["channel delay"] * 2
     assert table["possible_causes"].tolist() == ["temperature bias at 40 degC (68 %)"] * 2
     curve = pd.DataFrame(

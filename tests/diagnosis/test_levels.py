@@ -10,11 +10,12 @@ from contents import SOUND
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.record.trust import trust
+from asphalt_nscd.diagnosis.record.law import law_of_mix
+from asphalt_nscd.diagnosis.record.mixture import mixture
+from asphalt_nscd.diagnosis.record.statuses import Places, counts, kept, off_target, statuses
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
-from asphalt_nscd.diagnosis.simulation.extension import law_notes, material_law
 from asphalt_nscd.diagnosis.words.unexplained import left
 from asphalt_nscd.diagnosis.words.verdict import simulation_miss
 from asphalt_nscd.table_import.campaign import read_campaign
@@ -153,19 +154,18 @@ def test_the_law_is_nearer_to_the_mix_without_an_odd_isotherm(exports):
     used = ~levels.rows(wrong.observed, odd)
     assert (~used).sum() == hit.sum()
     omega, t = exports.omega[hit], exports.temperature[hit]
+    every = np.ones(used.size, bool)
     law, without, spoiled = (
-        material_law(found, rows).law.complex_modulus(omega, t)
-        for found, rows in ((right, None), (wrong, used), (wrong, None))
+        law_of_mix(mixture(found, rows)).law.complex_modulus(omega, t)
+        for found, rows in ((right, every), (wrong, used), (wrong, every))
     )
     assert np.abs(np.log(without / law)).max() < 0.02 < 0.05 < np.abs(np.log(spoiled / law)).min()
-    assert law_notes(wrong, material_law(wrong, used).law, levels.places(odd, []))[0] == (
-        "law.json is fitted without specimen Mix-B at 35 degC, the free master curve with it."
-    )
 
 
 @pytest.mark.parametrize("kelvin", [3.0, -4.0])
 def test_an_odd_modulus_and_phase_that_one_temperature_explains_say_which(exports, kelvin):
-    law = material_law(diagnose(exports, draws=FEW)).law
+    found = diagnose(exports, draws=FEW)
+    law = law_of_mix(mixture(found, np.ones(found.observed.size, bool))).law
     hit = (exports.specimen == 1) & (exports.isotherm == 20)
     omega, t = exports.omega, exports.temperature
     change = law.complex_modulus(omega, t + kelvin * hit) / law.complex_modulus(omega, t)
@@ -215,38 +215,62 @@ def test_two_specimens_that_are_off_by_inverse_factors_are_told_exchanged(other,
     )
 
 
-def test_the_law_is_free_only_of_what_the_table_does_not_speak_against(exports):
+def test_a_possible_cause_is_in_the_mix_by_its_probability(exports, monkeypatch):
+    """Established, the delay is off every hypothesis; at 0.7 the mix is the mean with it and without."""
     found = diagnose(exports, draws=FEW)
-    (rung,) = found.ladder.rungs
-    as_measured = material_law(diagnose(exports, catalogue=(), draws=FEW)).law
-    omega, t = found.observed.omega, found.observed.temperature
-
-    def off():
-        law = material_law(found).law.complex_modulus(omega, t)
-        return np.abs(np.log(law / as_measured.complex_modulus(omega, t))).max()
-
-    assert found.established(rung) and found.taken_off(rung) and off() > 0.02
+    (rung,), every = found.ladder.rungs, np.ones(found.observed.size, bool)
+    at = 2.0 * np.pi * np.array([0.1, 25.0]), np.array([20.0, 20.0])
+    sure = mixture(found, every)
+    assert found.established(rung) and len(sure.hypotheses) == 1
+    assert np.degrees(sure.effect(found.observed).imag).max() == pytest.approx(7.1, abs=0.1)
     found.too_few = "two frequencies show no curvature"
-    assert not found.established(rung) and found.taken_off(rung)
-    found.ladder.doubts = {rung.candidate.key: ["it includes zero"]}
-    assert not found.taken_off(rung) and off() < 1e-6
+    monkeypatch.setattr(type(found), "probability", lambda *_: 0.7)
+    open_to_doubt = mixture(found, every)
+    assert open_to_doubt.weights == pytest.approx([0.7, 0.3])
+    assert np.degrees(open_to_doubt.effect(found.observed).imag).max() == pytest.approx(0.7 * 7.1, abs=0.1)
+    values, errors = open_to_doubt.parts(*at)
+    with_it, without = np.degrees(values.imag)[:, 1]
+    assert without - with_it > 0.5 and with_it == pytest.approx(np.degrees(sure.parts(*at)[0].imag)[0, 1])
+    low, high = (np.degrees(end.imag)[1] for end in open_to_doubt.interval_95(values, errors))
+    assert low < with_it and without < high
+    phases = open_to_doubt.covariance(*at)[3, 3]
+    assert phases > 0.21 * np.radians(without - with_it) ** 2  # 0.7 times 0.3 of the distance squared
 
 
-def test_every_test_is_counted_once_in_what_can_be_trusted(exports):
-    odd = (exports.specimen == 1) & (exports.isotherm == 35)
-    doubtful = [int(np.flatnonzero(odd)[0]), int(np.flatnonzero(exports.isotherm == 4)[0])]
-    suspects = [
-        Suspect(doubtful[0], ("x",), used=False),
-        Suspect(doubtful[1], ("x",), used=True),
-    ]
-    broken = [50.0]
-    found = trust(exports, SimpleNamespace(suspects=suspects), odd, broken)
+def test_every_test_has_one_status(exports):
+    odd = {"specimen": "Mix-B", "temperature_C": 35.0, "factor": 0.7}
+    at = (exports.specimen == 1) & (exports.isotherm == 35)
+    rows = [int(np.flatnonzero(at)[0]), int(np.flatnonzero(exports.isotherm == 4)[0])]
+    suspects = (Suspect(rows[0], ("x",), used=False), Suspect(rows[1], ("y",), used=True))
+    none = np.zeros(exports.size, bool)
+    places = Places([odd], [], [], [{"temperature_C": 50.0}], off_target(exports), none)
+    found = SimpleNamespace(suspects=suspects, observed=exports)
+    record = statuses(found, exports, places)
+    assert (record["status"] == np.where(at, "held back", record["status"])).sum() == exports.size - 1
+    assert record["status"].tolist().count("held back") == at.sum() - 1
+    assert (record["status"][exports.isotherm == 50] == "doubtful").all()
+    first, second = record.iloc[rows].to_dict("records")
+    assert (first["status"], first["decided_by"]) == ("left out", "its own isotherm, the other specimens")
+    assert (second["status"], second["reasons"]) == ("doubtful", ["y"])
+    told = counts(record, exports.isotherms.tolist())
     hot = int((exports.isotherm == 50).sum())
-    assert found == {
-        "use": exports.size - hot - int(odd.sum()) - 1, "check": hot + int(odd.sum()) - 1 + 1, "not_used": 1,
-        "use_by_specimen": {"Mix-A": 17, "Mix-B": 12, "Mix-C": 18},
-    }  # fmt: skip
+    check = hot + int(at.sum())
+    assert (told["use"], told["check"], told["not_used"]) == (exports.size - check - 1, check, 1)
+    assert told["held_back"] == at.sum() - 1
+    assert told["use_by_specimen"] == {"Mix-A": 17, "Mix-B": 12, "Mix-C": 18}
+    assert kept(record).sum() == exports.size - at.sum()
+    # Where the rest makes no law, nothing is held back.
+    whole = Places([], [{"specimen": name, "temperature_C": 35.0, "phase_deg": 3.0} for name in exports.names],
+                   [], [], [], none)  # fmt: skip
+    assert "held back" not in set(
+        statuses(SimpleNamespace(suspects=(), observed=exports), exports, whole)["status"]
+    )
+
+
+def test_a_limit_that_half_of_all_tests_exceed_makes_them_doubtful(exports):
     uneven = replace(exports, quality={"phase_uniformity_deg": np.full(exports.size, 4.0)})
-    assert trust(uneven, SimpleNamespace(suspects=[]), np.zeros(exports.size, bool), []) == {
-        "use": 0, "check": exports.size, "not_used": 0, "use_by_specimen": {"Mix-A": 0, "Mix-B": 0, "Mix-C": 0},
-    }  # fmt: skip
+    none = Places([], [], [], [], [], np.zeros(exports.size, bool))
+    record = statuses(SimpleNamespace(suspects=(), observed=uneven), uneven, none)
+    assert set(record["status"]) == {"doubtful"} and record["reasons"][0][0].startswith(
+        "phase uniformity above 3"
+    )

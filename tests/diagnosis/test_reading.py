@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
-from asphalt_nscd.diagnosis.record.trust import reading
+from asphalt_nscd.diagnosis.record.statuses import off_target
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.campaign import Campaign
@@ -72,9 +72,7 @@ def test_a_sweep_noted_at_another_temperature_is_off_its_target(tmp_path):
     header = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg,amplitude_m"
     observed, _ = read_observations(table(tmp_path, header, rows), PAPER_GEOMETRY)
     assert observed.isotherms.tolist() == [0.0, 10.0, 20.0] and 11.7 in observed.temperature
-    assert reading(observed, [])["off_target"] == [
-        {"specimen": "B", "temperature_C": 10.0, "measured_C": 11.7}
-    ]
+    assert off_target(observed) == [{"specimen": "B", "temperature_C": 10.0, "measured_C": 11.7}]
     targets = [f"{row},{row.split(',')[1]}" for row in rows]
     meant, _ = read_observations(table(tmp_path, f"{header},nominal_temperature_C", targets), PAPER_GEOMETRY)
     assert meant.isotherms.tolist() == [0.0, 10.0, 11.7, 20.0]

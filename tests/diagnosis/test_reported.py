@@ -9,7 +9,8 @@ import pandas as pd
 import pytest
 
 import asphalt_nscd as an
-from asphalt_nscd.diagnosis.record.reported import mix_modulus, standard_errors
+from asphalt_nscd.diagnosis.record.mixture import standard_errors
+from asphalt_nscd.diagnosis.record.reported import tested
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 
@@ -51,7 +52,7 @@ def test_the_mix_at_15_degrees_and_10_hertz(diagnosis):
     assert 1.02 < said["E_high_MPa"] / said["E_MPa"] < 1.10
     assert said["within_the_tests"]
     table = diagnosis.outcome.to_report["reported"]
-    assert table.iloc[0].to_dict() == said
+    assert table.drop(columns="averaged_over").iloc[0].to_dict() == said
     far = table[(table["temperature_C"] == -10.0) & (table["frequency_Hz"] == 25.0)].iloc[0]
     assert (
         not far["within_the_tests"] and far["E_high_MPa"] / far["E_MPa"] > said["E_high_MPa"] / said["E_MPa"]
@@ -60,12 +61,11 @@ def test_the_mix_at_15_degrees_and_10_hertz(diagnosis):
 
 def test_few_specimens_widen_the_interval(diagnosis):
     """Three specimens and what is usual, worth eight degrees of freedom: Student's t of ten, 2.228, and not 1.96."""
-    made = diagnosis.outcome.diagnosis
-    here = mix_modulus(made, np.array([15.0]), np.array([10.0]))
+    _, ((here,),) = diagnosis.outcome.mix.parts(2 * np.pi * np.array([10.0]), np.array([15.0]))
     said = diagnosis.content["reported"]
-    factor = np.log(said["E_high_MPa"] / said["E_MPa"]) / here.std_error.real[0]
+    factor = np.log(said["E_high_MPa"] / said["E_MPa"]) / here.real
     assert factor == pytest.approx(2.228, abs=1e-3)
-    of_phase = np.radians(said["phase_high_deg"] - said["phase_deg"]) / here.std_error.imag[0]
+    of_phase = np.radians(said["phase_high_deg"] - said["phase_deg"]) / here.imag
     assert 1.96 < of_phase < 2.01
 
 
@@ -77,7 +77,7 @@ def test_the_tests_reach_2_kelvin_and_a_factor_of_2_beyond_the_last_of_them(
     diagnosis, temperature, frequency, celsius, factor
 ):
     def reached(t, f):
-        return mix_modulus(diagnosis.outcome.diagnosis, np.array([t]), np.array([f])).tested[0]
+        return tested(diagnosis.outcome.mix, np.array([t]), np.array([f]))[0]
 
     assert reached(temperature, frequency * factor**0.95)
     assert not reached(temperature, frequency * factor**1.05)
@@ -105,3 +105,15 @@ def test_corrected_tests_are_those_without_the_delay_and_name_nothing_new(diagno
     again = an.diagnose(tmp_path / "corrected.csv", measured_in="tension-compression", draws=an.Draws(500))
     assert set(again.ladder["cause"]) <= {"relaxation_spectrum"}
     assert again.content["tests"] == len(used)
+
+
+def test_beyond_the_tests_the_grid_is_law_json_with_its_band(diagnosis):
+    grid, law = diagnosis.outcome.to_report["reported"], diagnosis.law
+    beyond = grid[~grid["within_the_tests"]]
+    assert set(beyond["temperature_C"]) >= {-10.0, 54.4}
+    at = beyond["frequency_Hz"].to_numpy(), beyond["temperature_C"].to_numpy()
+    star = law.complex_modulus(*at)
+    assert beyond["E_MPa"].to_numpy() == pytest.approx(np.abs(star) * 1e-6, rel=1e-9)
+    assert beyond["phase_deg"].to_numpy() == pytest.approx(np.degrees(np.angle(star)), rel=1e-9)
+    cold = beyond[beyond["temperature_C"] == -10.0]
+    assert (cold["phase_deg"] > 1.0).all()  # the free curve gave 0.01 there

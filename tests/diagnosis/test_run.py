@@ -9,20 +9,19 @@ from types import SimpleNamespace
 import numpy as np
 import pandas as pd
 import pytest
-import yaml
 from jsonschema import Draft202012Validator
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis import run
+from asphalt_nscd.diagnosis.content import schema
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.record.reading import reading
 from asphalt_nscd.diagnosis.record.report import physical_limits
-from asphalt_nscd.diagnosis.record.trust import reading
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
-from asphalt_nscd.diagnosis.screening.within_isotherm import leave_one_out
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.search.ladder import Ladder
 from asphalt_nscd.diagnosis.words.brief import rows
-from asphalt_nscd.diagnosis.written import DIAGNOSIS_SCHEMA, read_diagnosis
+from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.rheology.spectrum_io import read_spectrum
 from asphalt_nscd.table_import.campaign import read_campaign
@@ -34,12 +33,12 @@ EXPORTS = Path(__file__).parents[2] / "data/tutorial/exports"
 FEW = run.Draws(500)
 # Of the specimens in which no test contradicts its isotherm: such a table is diagnosed twice.
 SOUND = sorted(path for name in ("A", "C") for path in EXPORTS.glob(f"Mix-{name}-*.csv"))
-SCHEMA = yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8"))
+SCHEMA = schema()
 
 
 def test_reading_names_isotherms_and_the_tests_beyond_a_limit():
     campaign, _ = read_campaign([EXPORTS])
-    read = reading(read_observations(campaign, PAPER_GEOMETRY)[0], ["a note of the import"])
+    read = reading(read_observations(campaign, PAPER_GEOMETRY)[0], [], ["a note of the import"])
     assert (read["test_type"], read["isotherms_C"]) == ("tension-compression", [4, 20, 35, 50])
     assert read["limits_exceeded"] == [
         {
@@ -68,7 +67,9 @@ def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
     also = (observed.specimen == 0) | ((observed.specimen == 1) & (observed.isotherm == 20.0))
     more = np.where(also, 40.0, 10.0)
     for values, where in ((uneven, "specimen Mix-A"), (more, "specimen Mix-A and specimen Mix-B at 20 degC")):
-        notes = reading(replace(observed, quality={"deformation_uniformity_percent": values}), [])["notes"]
+        notes = reading(replace(observed, quality={"deformation_uniformity_percent": values}), [], [])[
+            "notes"
+        ]
         assert notes[-1].endswith(
             f" Half of the tests or more exceed it in {where}: check gauges and mounting. No single test is rejected "
             "for that."
@@ -77,14 +78,14 @@ def test_a_limit_that_most_of_a_sweep_exceeds_singles_no_test_out():
 
 def test_a_specimen_that_lacks_a_temperature_of_the_others_is_named():
     observed, _ = read_observations(read_campaign([EXPORTS])[0], PAPER_GEOMETRY)
-    assert "not_tested" not in reading(observed, [])
+    assert reading(observed, [], [])["not_tested"] == []
     lacking = (observed.specimen == 1) & (observed.isotherm == 20)
-    assert reading(observed.subset(np.flatnonzero(~lacking)), [])["not_tested"] == [
+    assert reading(observed.subset(np.flatnonzero(~lacking)), [], [])["not_tested"] == [
         "specimen Mix-B at 20 degC"
     ]
     alone = observed.isotherm != 20
     alone |= observed.specimen == 1
-    assert "not_tested" not in reading(observed.subset(np.flatnonzero(alone)), [])
+    assert not reading(observed.subset(np.flatnonzero(alone)), [], [])["not_tested"]
 
 
 def test_an_isotherm_off_its_target_is_to_be_checked_and_tested_again_first(tmp_path):
@@ -266,7 +267,7 @@ def test_metal_comes_first_where_phases_lie_on_one_side(monkeypatch):
     monkeypatch.setattr(run.suspects, "one_sided", lambda *_: told)
 
     def without_a_cause(observed, *_, **__):
-        return replace(diagnose(table(4), draws=500), left_out=leave_one_out(observed))
+        return diagnose(observed, catalogue=(), draws=500)
 
     monkeypatch.setattr(run, "diagnose", without_a_cause)
     content = run.conclude(read_campaign(SOUND)[0], PAPER_GEOMETRY, draws=FEW).content

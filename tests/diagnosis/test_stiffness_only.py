@@ -9,11 +9,13 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.cli import main
-from asphalt_nscd.diagnosis.record.stiffness_only import USUAL, _log10_modulus, fit_stiffness
+from asphalt_nscd.diagnosis.record.stiffness_only import fit_stiffness
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.laws_of_modulus import Sigmoid
+from asphalt_nscd.rheology.shift import WLF
 from asphalt_nscd.table_import.campaign import read_campaign
 
-TRUE = np.array([1.8, 2.7, -1.0, 0.5, np.log10(20.0), np.log10(170.0)])
+TRUE = Sigmoid(63e6, 31.6e9, tau=0.1 / (2 * np.pi), gamma=0.22, shift=WLF(20.0, 170.0, 21.11))
 LEVELS = {"A": 0.02, "B": -0.03, "C": 0.01}  # ln of the specimens' scales
 SCATTER = 0.02
 
@@ -23,8 +25,7 @@ def table(tmp_path):
     random = np.random.default_rng(3)
     rows = []
     for specimen, t, f in product("ABC", (14.0, 40.0, 70.0, 100.0, 130.0), (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)):
-        celsius = np.array([(t - 32.0) / 1.8])
-        value = 10.0 ** _log10_modulus(TRUE, 21.11, celsius, np.array([f]))[0][0]
+        value = 1e-6 * abs(complex(TRUE.complex_modulus(2 * np.pi * f, (t - 32.0) / 1.8)))
         rows.append(
             (specimen, t, f, value * np.exp(LEVELS[specimen] + SCATTER * random.standard_normal()) / 6.894757)
         )
@@ -37,7 +38,7 @@ def table(tmp_path):
 def test_the_curve_that_made_them_is_found(table):
     found = fit_stiffness(read_campaign([table])[0])
     temperature, frequency = np.array([-5.0, 15.0, 30.0, 50.0]), np.array([10.0, 10.0, 1.0, 0.5])
-    true = 10.0 ** _log10_modulus(TRUE, 21.11, temperature, frequency)[0]
+    true = 1e-6 * np.abs(TRUE.complex_modulus(2 * np.pi * frequency, temperature))
     said = found.modulus(temperature, frequency)
     assert ((said["E_low_MPa"] < true) & (true < said["E_high_MPa"])).all()
     assert said["E_MPa"].to_numpy() == pytest.approx(true, rel=0.05)
@@ -46,14 +47,6 @@ def test_the_curve_that_made_them_is_found(table):
     # Of 90 tests the scatter is known within 8 %; the mean of a specimen's 30 tests within 0.0037.
     assert found.within == pytest.approx(SCATTER, rel=0.16)
     assert found.between == pytest.approx(np.std(list(LEVELS.values()), ddof=1), abs=0.004)
-
-
-def test_derivatives_are_those_of_the_curve():
-    temperature, frequency = np.array([-10.0, 21.0, 54.0]), np.array([25.0, 1.0, 0.1])
-    slope = _log10_modulus(TRUE, 21.0, temperature, frequency)[1]
-    for n, step in enumerate(np.eye(USUAL.size) * 1e-6):
-        high, low = (_log10_modulus(TRUE + sign * step, 21.0, temperature, frequency)[0] for sign in (1, -1))
-        assert slope[:, n] == pytest.approx((high - low) / 2e-6, rel=1e-6, abs=1e-8)
 
 
 def test_the_command_says_what_was_not_judged(table, tmp_path, capsys):
@@ -66,7 +59,7 @@ def test_the_command_says_what_was_not_judged(table, tmp_path, capsys):
     written = {path.name for path in (tmp_path / "out").iterdir()}
     assert written == {"stiffness.json", "stiffness_residuals.csv", "master_curve.csv", "diagnosis.html"}
     page = (tmp_path / "out" / "diagnosis.html").read_text(encoding="utf-8")
-    assert page.count("data-test=") == 90 and "Not judged" in page
+    assert "<svg" in page and "Not judged" in page
 
 
 def test_one_temperature_is_refused(table, tmp_path):

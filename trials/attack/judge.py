@@ -87,6 +87,7 @@ def told(fault: Fault, campaign: Campaign, content: Content, answer: str) -> boo
     flagged = [
         (one["specimen"], one["temperature_C"], one["frequency_Hz"])
         for one in content.get("suspect_tests", [])
+        if "its own isotherm" in one["decided_by"]
     ]
     rows = fault.rows(campaign)
     if fault.kind in ("exchanged specimens", "copied block"):
@@ -148,7 +149,7 @@ def judged(
     false = [e for e in given if not any(right(e, fault, content) for fault in case.faults)]
     removed = [
         (one["specimen"], one["temperature_C"], one["frequency_Hz"])
-        for one in content.get("suspect_tests", []) if not one["used"]
+        for one in content.get("suspect_tests", []) if one["status"] == "left out"
     ]  # fmt: skip
     bad = np.zeros(len(campaign.tests), bool)
     for fault in case.faults:

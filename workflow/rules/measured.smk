@@ -109,6 +109,29 @@ rule fig_excess:
         "../../studies/measured/fig_excess.py"
 
 
+rule reported_intervals:
+    """Whether the intervals of what is reported hold the mix, where it was not tested too. Ten minutes."""
+    input:
+        measured="data/mixes50/modulus.csv",
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=[f"trials/{name}.py" for name in ("extrapolation", "attack/laboratory", "attack/mixes")],
+    output:
+        grid="results/intervals/grid.csv",
+        summary="results/intervals/summary.csv",
+    log:
+        "results/intervals/logs/intervals.log",
+    benchmark:
+        "<results>/benchmarks/intervals.tsv"
+    params:
+        program=f"env PYTHONPATH={CLONE / 'trials'}:${{PYTHONPATH-}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m extrapolation",
+        size="10 100 --seed 20281128",
+    message:
+        "Diagnose campaigns of three temperatures, and hold what is reported against their mixes"
+    shell:
+        "{params.program} {params.size} --measured {input.measured} --folder results/intervals > {log} 2>&1"
+
+
+RECORDED["intervals"] = ("intervals", ["grid.csv", "summary.csv"])
 RECORDED["measured"] = (
     "measured",
     [

@@ -49,6 +49,9 @@ PUBLISHED = {
         ],
         {"measured_means": "means.csv", "excess_budget": "budget.csv", "measured_amplitude": "amplitude.csv"},
     ),
+    "publish_intervals": Published(
+        "intervals", ["grid.csv", "summary.csv", "provenance.json"], {"intervals": "summary.csv"}
+    ),
     "publish_verification": Published(
         "verification",
         ["verification.csv", "provenance.json"],

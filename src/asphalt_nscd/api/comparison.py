@@ -73,10 +73,10 @@ class Comparison:
         Returns
         -------
         DataFrame
-            One row for each mix, the stiffest first: |E*| [MPa] and phase [degrees] of the mix without any
-            cause that was found, with 95 % intervals; verdict; causes that are certain; possible ones with
-            their probability; tests, tests left out. rank_low, rank_high: 95 % interval of the rank, from
-            what the moduli leave open.
+            One row for each mix, the stiffest first: |E*| [MPa] and phase [degrees] of the mix, certain causes
+            taken off and possible ones by their probability, with 95 % intervals; verdict; causes that are
+            certain; possible ones with their probability; tests, those to check first, those left out.
+            rank_low, rank_high: 95 % interval of the rank, from what the moduli leave open.
         """
         rows = []
         for name, diagnosis in self.diagnoses.items():
@@ -95,7 +95,8 @@ class Comparison:
                     "causes": ", ".join(sentences.cause_words(rung) for rung in named if brief.sure(rung)),
                     "possible_causes": ", ".join(likely),
                     "tests": content["tests"],
-                    "left_out": int((~diagnosis.suspects["used"].astype(bool)).sum()),
+                    "check_first": content["trust"]["check"],
+                    "left_out": content["trust"]["not_used"],
                 }
             )
         table = pd.DataFrame(rows).sort_values("E_MPa", ascending=False, ignore_index=True)
@@ -113,7 +114,7 @@ class Comparison:
         DataFrame
             One row for each mix and frequency, with 95 % intervals.
         """
-        made = {name: one.outcome.diagnosis for name, one in self.diagnoses.items()}
+        made = {name: one.outcome.mix for name, one in self.diagnoses.items()}
         parts = [
             master_curve(one, EN_12697_26[0]).assign(mix=name)
             # A diagnosis read from files has left nothing to draw a curve from.

@@ -50,9 +50,9 @@ class Diagnosis:
     >>> diagnosis = diagnose("data/tutorial/exports", draws=Draws(500))
     >>> diagnosis.verdict, diagnosis.law.kind
     ('explained', '2s2p1d')
-    >>> diagnosis.suspects[["specimen", "temperature_C", "frequency_Hz", "used"]]
-      specimen  temperature_C  frequency_Hz   used
-    0    Mix-B            4.0          25.0  False
+    >>> diagnosis.suspects[["specimen", "temperature_C", "frequency_Hz", "status"]]
+      specimen  temperature_C  frequency_Hz    status
+    0    Mix-B            4.0          25.0  left out
     """
 
     outcome: Outcome
@@ -89,7 +89,7 @@ class Diagnosis:
         # An empty cell of a CSV is a NaN to pandas, and a NaN is true: each test would be suspect.
         tables[1]["reasons"] = tables[1]["reasons"].fillna("")
         law = read_json(folder / "law.json") if is_file(folder / "law.json") else None
-        return cls(Outcome(content, tables[0], tables[1], law))
+        return cls(Outcome(dict(content), tables[0], tables[1], law))
 
     @property
     def content(self) -> Mapping[str, Any]:
@@ -98,7 +98,7 @@ class Diagnosis:
         Returns
         -------
         mapping
-            Its keys are described in diagnosis/diagnosis.schema.yaml.
+            Its keys are described in diagnosis/content.py.
         """
         return self.outcome.content
 
@@ -122,7 +122,7 @@ class Diagnosis:
         tuple of str
             Sentences.
         """
-        return (*self.content.get("reading", {}).get("notes", ()), *self.content["notes"])
+        return (*self.content["reading"]["notes"], *self.content["notes"])
 
     @property
     def ladder(self) -> pd.DataFrame:
@@ -149,7 +149,8 @@ class Diagnosis:
             One row for each: specimen, temperature_C, frequency_Hz, used, reasons.
         """
         rows = [{**one, "reasons": "; ".join(one["reasons"])} for one in self.content["suspect_tests"]]
-        return pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz", "used", "reasons"])
+        names = ["specimen", "temperature_C", "frequency_Hz", "status", "reasons", "decided_by"]
+        return pd.DataFrame(rows, columns=names)
 
     @property
     def limits(self) -> pd.DataFrame:
@@ -200,7 +201,7 @@ class Diagnosis:
             One row for each law that can be fitted: its number of parameters, mean relative errors [%], and
             whether it is `law`.
         """
-        return pd.DataFrame(self.content.get("laws", []))
+        return pd.DataFrame(self.content["laws"])
 
     @cached_property
     def law(self) -> Law | None:
@@ -338,7 +339,7 @@ class Diagnosis:
             # It stands for the law of the mix, and is no fault of a test.
             if row.cause != "relaxation_spectrum"
         ]
-        aside = int((~self.suspects["used"].astype(bool)).sum())
+        aside = self.content["trust"]["not_used"]
         used = counted(self.content["tests"], "test")
         return f"Diagnosis({self.verdict}: {'; '.join(named) or 'no cause named'}; {used} used, {aside} not used)"
 
@@ -464,7 +465,13 @@ def diagnose(
         conclude(
             campaign_in(measurements, measured_in=measured_in),
             geometry,
-            stated=Stated(None if static is None else 1e6 * static, stated, known.law),
+            stated=Stated(
+                None if static is None else 1e6 * static,
+                stated,
+                known.law,
+                known.vma_percent,
+                known.vfa_percent,
+            ),
             simulated=simulated,
             draws=draws,
             progress=progress,

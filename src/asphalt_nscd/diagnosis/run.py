@@ -6,7 +6,6 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from hashlib import sha256
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -22,20 +21,24 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.record import measured_limits, report, reported
 from asphalt_nscd.diagnosis.record.instructions import MOST, instructions
+from asphalt_nscd.diagnosis.record.law import law_of_mix, law_parameters, left_to_priors
 from asphalt_nscd.diagnosis.record.measured_limits import Progress
-from asphalt_nscd.diagnosis.record.trust import reading, trust
-from asphalt_nscd.diagnosis.screening import levels, suspects
+from asphalt_nscd.diagnosis.record.mixture import Mixture, mixture
+from asphalt_nscd.diagnosis.record.reading import reading
+from asphalt_nscd.diagnosis.record.statuses import counts, kept, odd_places, statuses, told
+from asphalt_nscd.diagnosis.record.volumetrics import explained, read_volumetrics
+from asphalt_nscd.diagnosis.screening import suspects
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.settings import Draws, Simulated
-from asphalt_nscd.diagnosis.simulation import bond_mapping, extension, gain
+from asphalt_nscd.diagnosis.simulation import bond_mapping, gain
 from asphalt_nscd.diagnosis.simulation.numerics import numerical_errors
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen, read_specimen
 from asphalt_nscd.diagnosis.words.summary import answer
+from asphalt_nscd.diagnosis.written import name_at
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
 from asphalt_nscd.measurements.campaign import Campaign
 from asphalt_nscd.rheology.spectrum import LAWS
-from asphalt_nscd.rheology.spectrum_io import Uncertainty, fit_content
 
 OF_THE_PAPER = (
     "no --geometry: the specimen of Quezada and Chazallon (2020) is taken, 250 mm high, with 235 g that move; sizes of "
@@ -48,13 +51,14 @@ MATTERING = 0.02  # share of the tests that doubtful ones must have for one
 
 @dataclass(frozen=True)
 class Outcome:
-    """Content of the files of a diagnosis; `law` is None for one isotherm, `diagnosis` None if read from files."""
+    """Content of the files of a diagnosis; `law` is None for one isotherm, `diagnosis` and `mix` if read from files."""
 
     content: dict[str, Any]
     residuals: pd.DataFrame
     causality: pd.DataFrame
     law: dict[str, Any] | None
     diagnosis: Diagnosis | None = None
+    mix: Mixture | None = None
     limits: pd.DataFrame | None = None
     to_report: Mapping[str, pd.DataFrame] = field(default_factory=dict)
 
@@ -90,7 +94,7 @@ class Stated:
     """What the user says beside the table.
 
     `static_modulus` of the mix in Pa; `scatter` of |E*| (relative) and of the phase [rad]; `law`: one of `LAWS`, the
-    form that is fitted.
+    form that is fitted; `vma` and `vfa` in percent.
 
     >>> Stated().law
     '2s2p1d'
@@ -99,6 +103,8 @@ class Stated:
     static_modulus: float | None = None
     scatter: tuple[float, float] | None = None
     law: str = "2s2p1d"
+    vma: float | None = None
+    vfa: float | None = None
 
     def __post_init__(self) -> None:
         if self.law not in LAWS:
@@ -127,73 +133,65 @@ def conclude(
     except InputError as error:
         raise InputError(f"{given}: {error}") from None
     progress("Diagnose", 2, STEPS)
-    moduli, phases, own = levels.odd(observed), levels.odd_phases(observed), diagnosis.ladder.confined_faults
-    biases = levels.odd_temperatures(observed, moduli, phases)
-    phases, temperatures = levels.merge_confined(phases, biases, own)
-    odd = moduli, phases
-    doubtful = levels.rows(diagnosis.observed, chain(*odd, temperatures))
-    highest = diagnosis.ladder.at_highest
-    if highest is not None:
-        doubtful |= highest.rows(diagnosis.observed)
-    if np.unique(diagnosis.observed.isotherm[~doubtful]).size < diagnosis.observed.isotherms.size:
-        doubtful[:] = False  # the rest makes no law
+    odd = odd_places(diagnosis, observed)
+    record = statuses(diagnosis, observed, odd)
+    mix = mixture(diagnosis, kept(record))
+    volumes = read_volumetrics(None if campaign is None else campaign.table, stated.vma, stated.vfa)
     # law.json is of all temperatures: one isotherm has no shift.
-    fit = None if observed.isotherms.size < 2 else extension.material_law(diagnosis, ~doubtful, stated.law)
+    law = law_of_mix(mix, stated.law, volumes.of_mix) if observed.isotherms.size > 1 else None
     content, before = report.diagnosis_content(diagnosis, numerical), None
-    if fit is not None:
-        content["law_misses"] = extension.law_misses(diagnosis, fit.law, ~doubtful)
-        content["laws"] = extension.compared(diagnosis, fit, ~doubtful)
+    content |= {"suspect_tests": told(record), "trust": counts(record, observed.isotherms.tolist())}
+    content["averaged_over"] = [
+        {"causes": [name_at(*cause.key) for cause in one.possible], "probability": one.probability}
+        for one in mix.hypotheses
+    ]
+    content["scatter"]["air_voids"] = explained(diagnosis, volumes)
+    written_law = None
+    if law is not None:
+        written_law = law.content(f"fitted ({origin})")
+        content["law_parameters"] = law_parameters(written_law)
+        content["law_misses"] = law.misses(diagnosis)
+        content["laws"] = law.compared(diagnosis)
+        highest = diagnosis.ladder.at_highest
         at = [] if highest is None else [f"the tests at {highest.frequency:g} Hz"]
-        content["notes"] += extension.law_notes(diagnosis, fit.law, [*levels.places(*odd), *at])
-        said, notes = extension.left_to_priors(fit)
-        content["notes"] += notes
-        content |= {"undetermined": said} if said else {}
+        said, notes = left_to_priors(law.fit)
+        content["notes"] += [
+            *volumes.note,
+            *law.notes(diagnosis, [*odd.words, *at] if content["trust"]["held_back"] else []),
+            *notes,
+        ]
+        content["undetermined"] = said
     progress("Diagnose", 3, STEPS)
     notes, without_tests = ([], ()) if campaign is None else ([*campaign.notes], campaign.without_tests)
     if observed.test_type == "bending" and geometry == PAPER_GEOMETRY:
         notes.append(OF_THE_PAPER)
-    content["reading"] = reading(observed, notes, without_tests)
+    content["reading"] = reading(observed, odd.off_target, notes, without_tests)
     if simulated.campaign is not None:
         content["numerics"]["campaign"] = numerical_errors(
             simulated.campaign, observed.temperature, observed.frequency
         )
         before = _begin_with_campaigns(content, diagnosis, numerical, simulated)
-    content["origin"] = origin
     loo = diagnosis.left_out
     one_sided = "" if diagnosis.ladder.rungs else suspects.one_sided(observed, loo)
-    content["one_sided"] = one_sided
-    content["repeatability"] = repeatability.coefficients(diagnosis.observed)
-    content["odd_levels"], content["odd_phases"] = odd
-    content["odd_temperatures"] = temperatures
+    content |= {
+        "origin": origin,
+        "one_sided": one_sided,
+        "repeatability": repeatability.coefficients(diagnosis.observed),
+        "odd_levels": odd.moduli,
+        "odd_phases": odd.phases,
+        "odd_temperatures": odd.temperatures,
+        "contradictory_isotherms": odd.contradictory,
+    }
     content |= second_opinions(diagnosis, scatter, draws.seed)
     progress("Diagnose", 4, STEPS)
-    ahead = fixed_orders.off_target(observed, Costs(), content["reading"].get("off_target", []))
+    ahead = fixed_orders.off_target(observed, Costs(), odd.off_target)
     ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
     content["instructions"] = instructions(diagnosis, ahead=ahead)
     orders = content["instructions"]["orders"]
     orders += fixed_orders.strains(observed, Costs(), content["excess_phase"])[: MOST - len(orders)]
     progress("Diagnose", 5, STEPS)
-    broken = suspects.broken_isotherms(observed, loo, diagnosis.ladder.torn)
-    contradictory: list[dict[str, Any]] = [
-        {
-            "temperature_C": one.temperature,
-            "sentence": one.sentence,
-            "worst_Hz": float(one.frequency[worst]),
-            "worst_deg": float(one.difference[worst]),
-        }
-        for one in broken
-        for worst in [int(np.argmax(np.abs(one.difference)))]
-    ]
-    told = [one.temperature for one in broken]
-    contradictory += [one for one in own if "offset_deg" in one and one["temperature_C"] not in told]
-    content["contradictory_isotherms"] = contradictory
-    to_check = [one["temperature_C"] for one in contradictory]
-    off = levels.rows(observed, chain(*odd, temperatures))
-    if highest is not None:
-        off |= highest.rows(observed)
-    content["trust"] = trust(observed, diagnosis, off, to_check)
-    standard = reported.standard_values(diagnosis)
-    content["reported"] = standard.iloc[0].to_dict()
+    standard = reported.standard_values(mix, law)
+    content["reported"] = standard.drop(columns="averaged_over").iloc[0].to_dict()
     content["provenance"] = {
         **provenance(),
         "measurements": given.name,
@@ -205,32 +203,19 @@ def conclude(
         "static_modulus_Pa": stated.static_modulus,
         "scatter_stated": None if scatter is None else list(scatter),
     }
-    law, known, curve = None, None, reported.master_curve(diagnosis)
-    if fit is not None:
-        if fit.covariance is not None:
-            form = extension.misfit_of_form(diagnosis, fit.law, ~doubtful)
-            known = Uncertainty(fit.covariance, reported.freedom_of(diagnosis), form)
-        law = fit_content(fit, f"fitted ({origin})", known)
-        content["law_parameters"] = law_parameters(law)
-        curve = reported.add_law_columns(curve, fit.law, known)
     return Outcome(
         content,
         gain.residual_table(diagnosis, numerical, before),
-        suspects.table(observed, list(diagnosis.suspects), loo),
-        law,
+        suspects.table(observed, record, loo),
+        written_law,
         diagnosis,
-        to_report={"corrected": reported.corrected(diagnosis), "reported": standard, "master_curve": curve},
+        mix,
+        to_report={
+            "corrected": reported.corrected(diagnosis, observed, mix, record),
+            "reported": standard,
+            "master_curve": reported.master_curve(mix, law=law),
+        },
     )
-
-
-def law_parameters(law: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
-    """Parameters in the content of a law file with value, interval_95 and determined; `tau_s` carries its unit."""
-    intervals = law.get("interval_95", {})
-    return {
-        key: {"value": value, "interval_95": intervals.get(key), "determined": key not in law["unseen"]}
-        for key, value in law.items()
-        if isinstance(value, float) and key not in ("reference_temperature_C", "rms_log_residual")
-    }
 
 
 def _begin_with_campaigns(
@@ -254,7 +239,12 @@ def _begin_with_campaigns(
             common = gain.nearest(diagnosis, diagnosis.ladder.start, specimen)
             errors = gain.averages(diagnosis, after, common)
             law["gain"]["in_sample"]["averages_by_temperature"] = errors
-    content["ladder"][:0] = [] if rung is None else [rung]
+    of_tests: dict[str, Any] = {
+        "probability": None,
+        "taken_off": 0.0,
+        "log10_shift": {},
+    }  # which no simulation has
+    content["ladder"][:0] = [] if rung is None else [rung | of_tests]
     return before
 
 

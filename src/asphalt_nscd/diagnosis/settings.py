@@ -66,6 +66,10 @@ class Known:
         found.
     scatter : tuple of float, optional
         Standard deviations of one test: |E*| in % and phase in degrees; else they come from replicates.
+    vma_percent : float, optional
+        Voids in mineral aggregate, %. With VFA it gives the glassy modulus of law.json, by AASHTO R 84.
+    vfa_percent : float, optional
+        Voids filled with binder, %.
     law : str
         Form of the law in law.json; sigmoid is that of AASHTO R 84. Misfits of all four are compared.
 
@@ -77,6 +81,8 @@ class Known:
 
     static_modulus_MPa: float | None = option(default=None, low=0.0)
     scatter: tuple[float, float] | None = None
+    vma_percent: float | None = option(default=None, low=5.0, high=40.0)
+    vfa_percent: float | None = option(default=None, low=10.0, high=100.0)
     law: str = option(default="2s2p1d", choices=LAWS)
 
 

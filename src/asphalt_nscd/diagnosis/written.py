@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from functools import cache
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
-import yaml
-from jsonschema import Draft202012Validator
-from jsonschema.exceptions import best_match
+from msgspec import ValidationError
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.content import Content, checked
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE, WIDE_SPREAD
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
@@ -22,7 +20,6 @@ from asphalt_nscd.files.words import specimen_named, three_digits
 from asphalt_nscd.measurements.tables import averages, only_file
 
 SCHEMA_VERSION = 3
-DIAGNOSIS_SCHEMA = Path(__file__).with_name("diagnosis.schema.yaml")
 CONFINED_TO = {cause.name: cause.confined_to for cause in CATALOGUE}
 UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}  # of amplitudes
 BEFORE_AFTER = ("before", "after")
@@ -42,24 +39,17 @@ _SHOWN = {
 }
 
 
-def read_diagnosis(paths: Sequence[Path]) -> dict[str, Any]:
-    """Read the one diagnosis.json and check its version and `DIAGNOSIS_SCHEMA`."""
+def read_diagnosis(paths: Sequence[Path]) -> Content:
+    """Read the one diagnosis.json and check its version and types."""
     path = only_file(paths, "diagnosis")
     content = read_json(path)
     version = content.get("schema_version") if isinstance(content, dict) else None
     if version != SCHEMA_VERSION:
         raise InputError(f"{path}: not a diagnosis of version {SCHEMA_VERSION}; make it with `diagnose`.")
-    wrong = best_match(_schema().iter_errors(content))
-    if wrong is not None:
-        where = "/".join(map(str, wrong.absolute_path)) or "the file"
-        said = "is damaged, not as the schema says; delete it and run `diagnose` again."
-        raise InputError(f"{path}: {where} {said}")
-    return content
-
-
-@cache
-def _schema() -> Draft202012Validator:
-    return Draft202012Validator(yaml.safe_load(DIAGNOSIS_SCHEMA.read_text(encoding="utf-8")))
+    try:
+        return checked(content)
+    except ValidationError as error:
+        raise InputError(f"{path}: damaged ({error}); delete it and run `diagnose` again.") from None
 
 
 def read_residuals(paths: Sequence[Path]) -> pd.DataFrame:
@@ -79,16 +69,20 @@ def read_causality(paths: Sequence[Path]) -> pd.DataFrame:
     """Read the one causality.csv: each test's phase, that which |E*| requires (NaN: not judged), what is suspect."""
     table = read_csv(only_file(paths, "causality"))
     required, error = "phase_required_deg", "std_error_deg"
-    table.require(["specimen", *_TEST, required, error, "quality_flag", "reasons", "used"])
+    table.require(["specimen", *_TEST, required, error, "quality_flag", "status", "reasons"])
     return pd.DataFrame(
-        {"specimen": table.text("specimen"), "reasons": table.columns["reasons"]}
+        {
+            "specimen": table.text("specimen"),
+            "status": table.text("status"),
+            "reasons": table.columns["reasons"],
+        }
         | {name: table.numbers(name) for name in _TEST}
         | {name: table.numbers_or_nan(name) for name in (required, error)}
-        | {name: table.numbers(name) > 0.0 for name in ("quality_flag", "used")}
+        | {"quality_flag": table.numbers("quality_flag") > 0.0}
     )
 
 
-def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFrame:
+def conditions(residuals: pd.DataFrame, scatter: Mapping[str, Any]) -> pd.DataFrame:
     """Means over specimens by temperature and frequency.
 
     `scatter` is that of one test; the column `z_<column>` of a residual is its mean over the standard deviation of that
@@ -103,7 +97,7 @@ def conditions(residuals: pd.DataFrame, scatter: dict[str, float]) -> pd.DataFra
     return means
 
 
-def mean_averages(gain: dict[str, Any], inner: bool = False) -> dict[str, dict[str, float]]:
+def mean_averages(gain: Mapping[str, Any], inner: bool = False) -> dict[str, dict[str, float]]:
     """Errors of |E*| and phase before and after [%], as in Table 4, in the mean over the temperatures of a rung.
 
     `inner` leaves out the coldest and the warmest, unless they are all: an end that is left out of a fit is
@@ -178,7 +172,7 @@ def name_at(cause: str, place: str | float | None) -> str:
     return cause if place is None else f"{cause} @ {place}"
 
 
-def limits_by_place(cause: str, limit: dict[str, Any]) -> dict[str, float]:
+def limits_by_place(cause: str, limit: Mapping[str, Any]) -> dict[str, float]:
     """Detection limits of one cause by the `place_name` of its places."""
     if "places" not in limit:
         return {place_name(None): limit["value"]}

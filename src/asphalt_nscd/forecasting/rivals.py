@@ -12,20 +12,15 @@ import numpy as np
 from asphalt_nscd.forecasting.recipe import Recipe
 from asphalt_nscd.forecasting.scheme import Settings, modulus_of_mix
 from asphalt_nscd.measurements.units import PSI
+from asphalt_nscd.rheology.hirsch import contact_share, hirsch_modulus
 
 
 def hirsch(recipe: Recipe) -> np.ndarray:
     """E* (n,) [Pa] of the regression of Christensen, Pellinen & Bonaquist (2003), with their equation of the phase."""
-    shear = np.abs(recipe.binder_modulus()) / 3.0 / PSI
-    vma, vfa = _volumetrics(recipe)
-    filled = vfa * 3.0 * shear / vma
-    # In psi: 4.2e6 is the modulus that the regression gives all aggregates.
-    contact = (20.0 + filled) ** 0.58 / (650.0 + filled**0.58)
-    parallel = 4.2e6 * (1.0 - vma / 100.0) + 3.0 * shear * vfa * vma / 1e4
-    series = (1.0 - vma / 100.0) / 4.2e6 + vma / (3.0 * vfa * shear)
-    modulus = contact * parallel + (1.0 - contact) / series
+    shear, (vma, vfa) = np.abs(recipe.binder_modulus()) / 3.0, _volumetrics(recipe)
+    contact = contact_share(shear, vma, vfa)
     phase = -21.0 * np.log10(contact) ** 2 - 55.0 * np.log10(contact)
-    return PSI * modulus * np.exp(1j * np.radians(phase))
+    return hirsch_modulus(shear, vma, vfa) * np.exp(1j * np.radians(phase))
 
 
 def witczak(recipe: Recipe) -> np.ndarray:

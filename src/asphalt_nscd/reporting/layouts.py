@@ -176,6 +176,21 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             },
         )
     ],
+    "intervals": [
+        Layout(
+            {
+                "population": "tables",
+                "at": "at",
+                "values": "values",
+                "E_held_percent": "|E*| held, %",
+                "E_half_percent": "half-width, %",
+                "phase_held_percent": "phase held, %",
+                "phase_half_deg": "half-width, °",
+            },
+            figures=3,
+            where={"at": ("-10 to 54 degC", "-10 degC", "54.4 degC")},
+        )
+    ],
     "attack": [Layout(_CRITERIA, where={"met": ("no",)})],
     "mutants": [
         Layout({"room": "folder", "mutants": "tried", "noticed": "noticed"}),

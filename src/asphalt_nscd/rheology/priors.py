@@ -16,6 +16,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from asphalt_nscd.rheology.hirsch import limiting_modulus
+
 Vector = NDArray[np.float64]
 REFERENCE_TEMPERATURE = 15.0  # degC, of c2 and wlf_slope below
 # At 0.7 the tests say as much as the prior does: 1/0.7^2 = 2.
@@ -140,10 +142,19 @@ _LOW_END = Usual(
 )
 
 
-def prior_of(law: str) -> Prior:
+_OF_HIRSCH = 0.15  # standard deviation of ln: the regression misses |E*| of its own mixes by about as much
+
+
+def prior_of(law: str, volumetrics: tuple[float, float] | None = None) -> Prior:
     """What the parameters of a law, one of LAWS, usually are for asphalt concrete.
+
+    Of a mix of known `volumetrics`, VMA and VFA in percent, the glassy modulus is near the limiting one of R 84.
 
     >>> prior_of("sigmoid").usual["static_modulus"].median, prior_of("cam") is ASPHALT_CONCRETE
     (10000000.0, True)
     """
-    return Prior({**USUAL, "static_modulus": _LOW_END}) if law == "sigmoid" else ASPHALT_CONCRETE
+    usual = {**USUAL, "static_modulus": _LOW_END} if law == "sigmoid" else USUAL
+    if volumetrics is None:
+        return ASPHALT_CONCRETE if usual is USUAL else Prior(usual)
+    limit = Usual(limiting_modulus(*volumetrics), _OF_HIRSCH, "Pa", "AASHTO R 84 by VMA and VFA")
+    return Prior({**usual, "glassy_modulus": limit})

@@ -28,6 +28,10 @@ _KEYS = {
     "activation_energy": "activation_energy_J_mol",
 }
 _REFERENCE = {"reference_temperature": "reference_temperature_C"}
+# Standard deviation of ln a_T by which the shift of a mix leaves the form that is fitted, this far [K] from the
+# reference temperature; it grows with the cube. Half of the prior of the free curve (`diagnosis.model.bases`), for C2
+# has one too.
+DEPARTURE, DEPARTURE_KELVIN = 0.1, 25.0
 
 
 def student(freedom: float) -> float:
@@ -47,11 +51,13 @@ class Uncertainty:
 
     `covariance` (p, p) is of the logarithms of its parameters, `freedom` of the errors of |E*| and of the phase. `form`
     is the root mean square by which a law of this form misses a curve of any form, in ln|E*| and in the phase [rad].
+    `tested`: coldest and warmest test [degC], beyond which the shift may leave its form.
     """
 
     covariance: NDArray[np.float64]
     freedom: tuple[float, float]
     form: tuple[float, float] = (0.0, 0.0)
+    tested: tuple[float, float] = (-np.inf, np.inf)
 
     def half(self, law: Spectrum, omega: NDArray, temperature: NDArray) -> NDArray[np.complex128]:
         """Half-widths of the 95 % intervals of what the mix has; the misfit of the form counts too.
@@ -59,12 +65,23 @@ class Uncertainty:
         `omega` [rad/s] and `temperature` [degC] are (n,); returns (n,), of ln|E*| and, imaginary, of the phase [rad].
         """
         slopes = law.log_slopes(omega, temperature)
+        along = slopes[:, list(parameters(law)).index("tau")]  # by ln tau, as by ln a_T
+        beyond = self._departure(law.shift.reference_temperature, temperature)
         # Without the misfit of the form the band held 84 to 91 % of drawn mixes, and 75 to 84 % of their phases.
         of_modulus, of_phase = (
-            student(freedom) * np.sqrt(np.einsum("ij,jk,ik->i", part, self.covariance, part) + form**2)
-            for part, freedom, form in zip((slopes.real, slopes.imag), self.freedom, self.form, strict=True)
+            student(freedom)
+            * np.sqrt(np.einsum("ij,jk,ik->i", part, self.covariance, part) + form**2 + (steep * beyond) ** 2)
+            for part, steep, freedom, form in zip(
+                (slopes.real, slopes.imag), (along.real, along.imag), self.freedom, self.form, strict=True
+            )
         )
         return of_modulus + 1j * of_phase
+
+    def _departure(self, reference: float, temperature: NDArray) -> NDArray[np.float64]:
+        """Standard deviation (n,) of ln a_T off the form of the shift, from the nearest tested temperature on."""
+        ends = np.clip(temperature, *self.tested)
+        here, there = (((t - reference) / DEPARTURE_KELVIN) ** 3 for t in (temperature, ends))
+        return DEPARTURE * np.abs(here - there)
 
 
 def spectrum_content(
@@ -111,6 +128,7 @@ def spectrum_content(
             "values": covariance.tolist(),
             "freedom": [float(one) if np.isfinite(one) else None for one in freedom],
             "misfit_of_form": list(uncertainty.form),
+            "tested_C": [float(one) if np.isfinite(one) else None for one in uncertainty.tested],
         }
     return content
 
@@ -140,13 +158,15 @@ def uncertainty_of(path: str | Path, content: dict[str, Any], law: Spectrum) -> 
         covariance = np.array(said["values"], float)
         freedom = tuple(np.inf if one is None else float(one) for one in said["freedom"])
         form = tuple(float(one) for one in said["misfit_of_form"])
+        coldest, warmest = said["tested_C"]
+        tested = -np.inf if coldest is None else coldest, np.inf if warmest is None else warmest
         sound = said["parameters"] == [keys[name] for name in parameters(law)]
         sound = sound and len(freedom) == 2 == len(form)
     except (KeyError, TypeError, ValueError):
         sound = False
     if not sound or covariance.shape != (len(keys), len(keys)) or not np.isfinite(covariance).all():
         raise InputError(f"{path}: key 'covariance_of_logarithms' is damaged; make the file again.")
-    return Uncertainty(covariance, (freedom[0], freedom[1]), (form[0], form[1]))
+    return Uncertainty(covariance, (freedom[0], freedom[1]), (form[0], form[1]), tested)
 
 
 def write_spectrum(path: str | Path, law: Spectrum, **said: Any) -> dict[str, Any]:

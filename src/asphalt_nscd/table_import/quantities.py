@@ -23,6 +23,7 @@ _UNITS_OF: dict[str, dict[str, tuple[float, float]]] = {
     "length": {"m": (1.0, 0.0), "mm": (1e-3, 0.0), "um": (1e-6, 0.0)},
     "sieve": {"m": (1e3, 0.0), "mm": (1.0, 0.0), "um": (1e-3, 0.0)},
     "percent": {"%": (1.0, 0.0), "percent": (1.0, 0.0)},
+    "share": dict.fromkeys(("", "%", "percent"), (1.0, 0.0)),  # voids: a column that says no unit has percent
     "time": {"s": (1.0, 0.0)},
     "ratio": dict.fromkeys(("", "-", "1"), (1.0, 0.0)),
     "number": {"": (1.0, 0.0)},

@@ -35,7 +35,7 @@ _WORDS = {
     "z0_m": "displacement",
     "psi_deg": "phase between force and displacement",
 } | PARTS
-MAY_BE_ABSENT = (*QUALITY, "microstrain")
+MAY_BE_ABSENT = (*QUALITY, "microstrain", "air_voids_percent", "vma_percent", "vfa_percent")
 # Form, the angle that it lacks, the other one that stands there, and whose phase is wanted.
 _ANGLES = (
     ("moduli", "phase_deg", "psi_deg", "E*"),

@@ -133,7 +133,8 @@ def test_one_number_for_before_stands_on_the_first_page(page, tmp_path):
 def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
     order = {
         "text": "0.5 h: test a metal reference specimen, 25 Hz.",
-        "act": "test a metal reference specimen, 25 Hz",
+        "act": "test a metal reference specimen",
+        "purpose": "",
         "why": ["As 7.1 deg."],
         "hours": 0.5,
         "nats": 3.0,

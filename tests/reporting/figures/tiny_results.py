@@ -193,7 +193,8 @@ class Results:
             },
         }
         rung = {"where": None, "p_value": 1e-9, "as_good": [], "sentence": "s", "confirmed_by": "c"}
-        rung |= {"established": True, "hangs_on": [], "doubts": []}
+        rung |= {"established": True, "hangs_on": [], "doubts": [], "probability": None, "taken_off": 0.0}
+        rung |= {"evidence": "", "log10_shift": {}}
         rung["gain"] = {"in_sample": gain, "held_out": {"leave_one_frequency_out": gain}}
         spectrum = {"wlf_C1": {"value": 12.0, "std_error": None, "unit": "1"}}
         clamp = {"compliance": {"value": 3e-12, "std_error": 2e-13, "unit": "1/Pa"}}
@@ -202,7 +203,9 @@ class Results:
         parameters = {"Em_Pa": 2e10, "eta_m_Pa_s": 1e9, "Ek_Pa": 3e10, "eta_k_Pa_s": 1e8}
         content = {
             "schema_version": 3, "verdict": "explained", "tests": 12, "tested": True, "origin": "reconstructed",
-            "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": True},
+            "scatter": {"modulus_percent": 1.0, "phase_deg": 0.5, "specimens_percent": 3.0, "from_replicates": True,
+                        "air_voids": None},
+            "averaged_over": [{"causes": [], "probability": 1.0}],
             "numerics": {
                 "specimen": "s1", "modulus_over_law": 1.002, "largest_modulus_percent": 0.1, "largest_phase_deg": 0.02,
             },
@@ -212,7 +215,8 @@ class Results:
             },
             "ladder": [
                 rung | {"cause": "relaxation_spectrum", "parameters": spectrum, "log10_shift": {"0": 2.0, "20": 0.0}},
-                rung | {"cause": "loose_clamp", "where": "2", "parameters": clamp, "taken_off": True},
+                rung | {"cause": "loose_clamp", "where": "2", "parameters": clamp, "taken_off": 1.0,
+                        "probability": 0.97},
             ],
             "withdrawn": [], "indistinguishable": [["loose_clamp of all specimens", "relaxation_spectrum"]],
             "not_testable": [{"cause": "damage", "needs": "the order of the tests"}],
@@ -230,7 +234,11 @@ class Results:
             },
             "estimates": {}, "estimates_spread": 1.0, "discrepancy": [], "repeatability": None, "with_suspects": None,
             "without_doubtful": None, "instructions": {"costs": "", "orders": []}, "contradictory_isotherms": [],
-            "trust": {"use": 12, "check": 0, "not_used": 0, "use_by_specimen": {}}, "one_sided": "", "odd_levels": [],
+            "trust": {"use": 12, "check": 0, "held_back": 0, "not_used": 0, "check_at_C": [], "check_of": [],
+                      "use_by_specimen": {}},
+            "one_sided": "", "highest_frequency": None, "law_misses": None, "laws": [], "law_parameters": {},
+            "undetermined": "", "measured_limits": {}, "excess_phase": [],
+            "odd_levels": [],
             "odd_phases": [], "odd_temperatures": [], "suspect_tests": [], "detection_limits_of_one_place": {},
             "reported": {
                 "temperature_C": 15.0, "frequency_Hz": 10.0, "E_MPa": 9e3, "E_low_MPa": 8e3, "E_high_MPa": 1e4,
@@ -238,7 +246,7 @@ class Results:
             },
             "reading": {
                 "test_type": "bending", "specimens": ["1", "2"], "isotherms_C": [0.0, 20.0], "quality_columns": [],
-                "limits_exceeded": [], "notes": [],
+                "limits_exceeded": [], "notes": [], "off_target": [], "not_tested": [], "files_without_tests": [],
             },
         }  # fmt: skip
         write_json(path := self.folder / "diagnosis.json", content | changes)
@@ -286,7 +294,7 @@ class Results:
                             "std_error_deg": 1.0,
                             "quality_flag": int(fault),
                             "reasons": "phase; twice" if fault or doubt else "",
-                            "used": int(not fault),
+                            "status": "left out" if fault else "doubtful" if doubt else "used",
                         }
                     )
         write_table(path := self.folder / "causality.csv", pd.DataFrame(rows))

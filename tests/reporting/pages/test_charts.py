@@ -54,7 +54,8 @@ def test_points_lie_where_their_values_are_and_hollow_ones_are_suspect(results):
     assert np.abs(np.polyval(up, np.log(numbers[:, 0])) - at[:, 1]).max() < 1.0
     hollow = ["fill: #ffffff" in mark.get("style") for mark in marks]
     assert (
-        hollow == ["suspect" in title for title in titles] and sum(hollow) == (table["reasons"] != "").sum()
+        hollow == ["; left out: " in t or "; doubtful: " in t for t in titles]
+        and sum(hollow) == (table["reasons"] != "").sum()
     )
 
 
@@ -100,8 +101,8 @@ def test_cells_say_the_residual_and_have_its_colour(results):
 def test_the_map_of_a_specimen_says_what_is_off_and_marks_what_is_not_used(results):
     chart = made(results)["causality"]
     table = pd.read_csv(results.causality()[0], keep_default_na=False)
-    row = table[(table["reasons"] != "") & (table["used"] == 0)].iloc[0]
-    [words] = [t for plot in chart.plots for t in told(plot)[0] if "not used" in t]
+    row = table[(table["reasons"] != "") & (table["status"] == "left out")].iloc[0]
+    [words] = [t for plot in chart.plots for t in told(plot)[0] if "; left out: " in t]
     said = float(re.search(r"; (\S+)° from what", words).group(1).replace("\N{MINUS SIGN}", "-"))
     assert said == pytest.approx(row["phase_deg"] - float(row["phase_required_deg"]), abs=0.05)
     assert len(chart.plots) == table["specimen"].nunique()

@@ -62,7 +62,7 @@ def test_what_was_left_out_stands_with_its_reason(folder, text):
     table = pd.read_csv(folder / "corrected.csv", keep_default_na=False)
     row = table[table["status"] == "left out"].iloc[0]
     assert f"{row.specimen} {row.temperature_C:g} °C {row.frequency_Hz:g} left out" in text
-    assert row.doubts.partition(" ")[0] in text
+    assert row.reasons.partition(" ")[0] in text
 
 
 def test_nothing_of_the_terminal_stands_in_it(pages, text):

@@ -64,7 +64,8 @@ def test_a_group_that_cannot_be_told_apart_names_its_members():
 
 def suspects(*tests, used=False):
     names = ("specimen", "temperature_C", "frequency_Hz")
-    return [dict(zip(names, test)) | {"used": used, "reasons": []} for test in tests]
+    status = {"status": "doubtful" if used else "left out", "decided_by": "its own isotherm", "reasons": []}
+    return [dict(zip(names, test)) | status for test in tests]
 
 
 def test_left_out_means_all_that_is_bad_and_nothing_that_is_good():
@@ -73,7 +74,7 @@ def test_left_out_means_all_that_is_bad_and_nothing_that_is_good():
     assert row(pair, "slip", suspect_tests=both)["removed"]
     assert row(pair, "slip", suspect_tests=both)["good_rejected"] == 0
     assert not row(pair, "slip", suspect_tests=both[:1])["removed"]
-    assert not row(pair, "slip", suspect_tests=[one | {"used": True} for one in both])["removed"]
+    assert not row(pair, "slip", suspect_tests=[one | {"status": "doubtful"} for one in both])["removed"]
     assert row(pair, "slip", suspect_tests=[*both, *suspects(("S3", 20.0, 1.0))])["good_rejected"] == 1
     assert row(None, "nothing", suspect_tests=both)["good_rejected"] == 2
 

@@ -17,6 +17,7 @@ from asphalt_nscd.measurements.campaign import OFF_TARGET
 Orders = list[dict[str, Any]]
 CLEAR = 3.0  # standard errors of an excess phase
 STRAINS = 25, 75  # 1e-6
+HALF = ", at half the strain"
 MANY = 4  # frequencies from which only the ends are told
 
 
@@ -53,7 +54,7 @@ def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
         "cause is in the mix or in the mounting."
     )
     purpose = "to see whether the machine adds to the phase"
-    return [content(f"test {METAL}, {band(ends)}", (purpose, [why]), hours, ([METAL], [], ends))]
+    return [content(f"test {METAL}", (purpose, [why]), hours, ([METAL], [], ends))]
 
 
 def strains(done: Observations, costs: Costs, excesses: Sequence[Mapping[str, Any]]) -> Orders:
@@ -68,7 +69,7 @@ def strains(done: Observations, costs: Costs, excesses: Sequence[Mapping[str, An
     at, frequencies, specimen = largest["temperature_C"], done.frequencies.tolist(), done.names[0]
     act = (
         f"test {specimen_named(specimen)} at {at:g} degC and {' and '.join(f'{s:g}' for s in STRAINS)} microstrain, by "
-        f"a haversine and by tension-compression, {band(frequencies)}, and keep the raw signals"
+        "a haversine and by tension-compression, raw signals kept"
     )
     why = (
         f"The phase lies {largest['excess_deg']:.1f} deg above what |E*| requires. A reading of drift vanishes in "
@@ -129,21 +130,25 @@ def _order(
     frequencies = done.frequencies.tolist()
     hours = sum(costs.hours("", t, frequencies) for name in names for t in at)
     hours += costs.new_specimen * (NEW in names)
-    words = f"{act} at {joined([f'{t:g}' for t in at])} degC, {band(frequencies)}"
+    words = f"{act} at {joined([f'{t:g}' for t in at])} degC"
     return content(words, why, hours, (names, at, frequencies))
 
 
 def content(
-    act: str, why: tuple[str, list[str]], hours: float, tests: tuple[list[str], list[float], list[float]]
+    act: str,
+    why: tuple[str, list[str]],
+    hours: float,
+    tests: tuple[list[str], list[float], list[float]],
+    half: bool = False,
 ) -> dict[str, Any]:
-    """An order as diagnosis.json has it, of no computed gain and at the usual strain.
+    """An order as diagnosis.json has it, of no computed gain; `half` of the usual strain or all of it.
 
     `why` holds its purpose in a few words and the reasons in full; `hours` in h; `tests` are the names of the
     specimens, temperatures [degC] and frequencies [Hz].
     """
     names, at, frequencies = tests
     return {
-        "text": f"{hours:.1f} h: {act}.",
+        "text": f"{hours:.1f} h: {act}, {band(frequencies)}{HALF * half}.",
         "act": act,
         "purpose": why[0],
         "why": why[1],
@@ -152,7 +157,7 @@ def content(
         "specimens": names,
         "temperature_C": at[0] if len(at) == 1 else None,
         "frequencies_Hz": frequencies,
-        "half_strain": False,
+        "half_strain": half,
     }
 
 

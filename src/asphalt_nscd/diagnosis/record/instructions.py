@@ -61,8 +61,8 @@ def instructions(
         why = reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality))
         at = [] if one.sweep.specimen == METAL else [one.sweep.temperature]
         tests, words = (one.specimens, at, list(one.sweep.frequencies)), (purpose(one, questions), why)
-        order = fixed_orders.content(act(one, done), words, one.hours, tests)
-        told += [order | {"nats": round(one.nats, 2), "half_strain": one.sweep.half_strain}] * bool(why)
+        order = fixed_orders.content(act(one, done), words, one.hours, tests, one.sweep.half_strain)
+        told += [order | {"nats": round(one.nats, 2)}] * bool(why)
     return {"costs": costs.sentence, "orders": [*[*first, *told][: MOST - len(last)], *last]}
 
 

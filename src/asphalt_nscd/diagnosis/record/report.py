@@ -24,7 +24,7 @@ from asphalt_nscd.diagnosis.written import CONFINED_TO, SCHEMA_VERSION, UNITS, n
 
 
 def diagnosis_content(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
-    """Content of `diagnosis.json` (schema: diagnosis.schema.yaml beside this file)."""
+    """Content of `diagnosis.json` (typed by `diagnosis.content`)."""
     ladder, held = [], HeldOut(joint_alone(diagnosis))
     if diagnosis.relaxation_spectrum:
         ladder.append(law_rung(diagnosis, specimen, held))
@@ -50,7 +50,6 @@ def diagnosis_content(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict
             "specimens_percent": 100.0 * diagnosis.noise.scale,
             "from_replicates": diagnosis.replicated and diagnosis.noise.freedom < STATED,
         },
-        "suspect_tests": _suspects(diagnosis),
         "numerics": _numerics(diagnosis, specimen),
         "baseline": {
             "law": "burgers",
@@ -82,7 +81,13 @@ def diagnosis_content(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict
         "largest_pattern_left": pattern,
         "unexplained": _unexplained(diagnosis),
         "notes": [*diagnosis.notes, *[wide] * (spread >= WIDE_SPREAD)],
-        **({} if highest is None else {"highest_frequency": highest.content(widening(spread))}),
+        "highest_frequency": None if highest is None else highest.content(widening(spread)),
+        "measured_limits": {},
+        # Of law.json, where there is one:
+        "law_parameters": {},
+        "law_misses": None,
+        "laws": [],
+        "undetermined": "",
     }
 
 
@@ -183,21 +188,6 @@ def _limits_of_one_place(diagnosis: Diagnosis) -> dict[str, dict[str, Any]]:
     return limits
 
 
-def _suspects(diagnosis: Diagnosis) -> list[dict[str, Any]]:
-    """Doubtful tests with their reasons, and whether the diagnosis used them."""
-    whole = diagnosis.whole or diagnosis.observed
-    return [
-        {
-            "specimen": whole.names[whole.specimen[one.row]],
-            "temperature_C": float(whole.isotherm[one.row]),
-            "frequency_Hz": float(whole.frequency[one.row]),
-            "reasons": list(one.reasons),
-            "used": one.used,
-        }
-        for one in diagnosis.suspects
-    ]
-
-
 def _estimates(diagnosis: Diagnosis) -> dict[str, Any]:
     """Amplitude of every cause at every place and its standard error, where a discrepancy was estimated."""
     out: dict[str, Any] = {}
@@ -217,9 +207,9 @@ def physical_limits(diagnosis: Diagnosis) -> dict[tuple[str, Place], float]:
     return {key: value for key, value in limits.items() if value <= most[key[0]]}
 
 
-def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:
+def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str | None]]:
     observed = diagnosis.observed
-    out: list[dict[str, float | str]] = []
+    out: list[dict[str, float | str | None]] = []
     if diagnosis.verdict == "unexplained_structure":
         mean, z = cell_residuals(diagnosis)
         for cell in np.argsort(-z):
@@ -234,13 +224,14 @@ def _unexplained(diagnosis: Diagnosis) -> list[dict[str, float | str]]:
     of_modulus, of_phase = diagnosis.noise.sigma
     size = np.maximum(np.abs(left.real) / of_modulus, np.abs(left.imag) / of_phase)
     return out + [
-        {**_miss(aside, row, left[row], size[row]), "specimen": aside.names[aside.specimen[row]]}
+        _miss(aside, row, left[row], size[row]) | {"specimen": aside.names[aside.specimen[row]]}
         for row in range(aside.size)
     ]
 
 
-def _miss(observed: Observations, row: int, residual: complex, z: float) -> dict[str, float | str]:
+def _miss(observed: Observations, row: int, residual: complex, z: float) -> dict[str, float | str | None]:
     return {
+        "specimen": None,
         "temperature_C": float(observed.isotherm[row]),
         "frequency_Hz": float(observed.frequency[row]),
         "residual_E_percent": 100.0 * float(residual.real),

@@ -1,18 +1,21 @@
-"""What a laboratory reports: tests after the named corrections, and E* of the mix where standards ask for it."""
+"""What a laboratory reports: tests after the established corrections, and E* of the mix where standards ask for it."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.observed.scatter import SCALE_FREEDOM
+from asphalt_nscd.diagnosis.content import LEFT_OUT
+from asphalt_nscd.diagnosis.model.joint import Candidate
+from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
+from asphalt_nscd.diagnosis.record.law import LawOfMix
+from asphalt_nscd.diagnosis.record.mixture import Mixture, averaged_over
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
-from asphalt_nscd.diagnosis.simulation.extension import effect_taken_off
 from asphalt_nscd.rheology.spectrum import Spectrum
-from asphalt_nscd.rheology.spectrum_io import Uncertainty, student
+from asphalt_nscd.rheology.spectrum_io import Uncertainty
 
 EN_12697_26 = (15.0, 10.0)  # degC, Hz
 # AASHTO R 84, the input of MEPDG programs.
@@ -20,143 +23,107 @@ R_84_CELSIUS = (-10.0, 4.4, 21.1, 37.8, 54.4)
 R_84_HERTZ = (25.0, 10.0, 5.0, 1.0, 0.5, 0.1)
 NEAR = 2.0  # K beyond the tests, and the factor of their reduced frequencies, that is no extrapolation
 IN_A_DECADE = 8  # points of the master curve
-LEFT_OUT = "left out"
 
 
-@dataclass(frozen=True)
-class Reported:
-    """|E*| and phase of the mix at some conditions: estimates and standard errors of ln |E*| and the phase [rad].
+def mix_modulus(mix: Mixture, temperature: Vector, frequency: Vector) -> tuple[Complex, Complex, Complex]:
+    """ln E* (n,) of the mix by the free curve, and both ends of its 95 % interval, of ln|E*| and of the phase [rad].
 
-    freedom: degrees of freedom of the two standard errors.
+    At `temperature` (n,) [degC] and `frequency` (n,) [Hz]. It knows the scatter of single tests, that between
+    specimens, and what named and possible causes leave open; errors by propagation of first order. |E*| is as uncertain
+    as few specimens leave it, so that its intervals are of Student's t with their degrees of freedom.
     """
-
-    temperature: NDArray[np.float64]
-    frequency: NDArray[np.float64]
-    logarithm: NDArray[np.complex128]
-    std_error: NDArray[np.complex128]
-    tested: NDArray[np.bool_]  # whether the tests reach there
-    freedom: tuple[float, float]
-
-    def table(self) -> pd.DataFrame:
-        """One row for each condition, with the 95 % intervals."""
-        e, p = np.exp(self.logarithm.real) * 1e-6, np.degrees(self.logarithm.imag)
-        of_modulus, of_phase = map(student, self.freedom)
-        spread = np.exp(of_modulus * self.std_error.real)
-        off = of_phase * np.degrees(self.std_error.imag)
-        return pd.DataFrame(
-            {
-                "temperature_C": self.temperature,
-                "frequency_Hz": self.frequency,
-                "E_MPa": e,
-                "E_low_MPa": e / spread,
-                "E_high_MPa": e * spread,
-                "phase_deg": p,
-                "phase_low_deg": p - off,
-                "phase_high_deg": p + off,
-                "within_the_tests": self.tested,
-            }
-        )
+    values, errors = mix.parts(2.0 * np.pi * frequency, temperature)
+    return (mix.weights @ values, *mix.interval_95(values, errors))
 
 
-def mix_modulus(
-    diagnosis: Diagnosis, temperature: NDArray[np.float64], frequency: NDArray[np.float64]
-) -> Reported:
-    """ln E* of the mix without the named causes with standard errors, by the last fit of the free curve.
-
-    At `temperature` (n,) [degC] and `frequency` (n,) [Hz]; the result tells where the tests reach. Its covariance holds
-    the scatter of single tests, that between specimens, and what the causes leave open; errors by propagation of first
-    order. |E*| is as uncertain as few specimens leave it, so that its intervals are of Student's t with their degrees
-    of freedom.
-    """
-    observed = diagnosis.observed
-    base, fitted = diagnosis.law_of_all()
-    law = fitted.law
-    modulus, slope = base.modulus(law, 2.0 * np.pi * frequency, temperature)
-    along = slope / modulus[:, None]
-    covariance = fitted.covariance[: law.size, : law.size]
-    coldest, warmest = observed.temperature.min() - NEAR, observed.temperature.max() + NEAR
+def tested(mix: Mixture, temperature: Vector, frequency: Vector) -> NDArray[np.bool_]:
+    """Whether the tests reach these conditions (n,), by temperature and by reduced frequency."""
+    tests, base, law = mix.tests, mix.base, mix.law
+    coldest, warmest = tests.temperature.min() - NEAR, tests.temperature.max() + NEAR
     within = (temperature >= coldest) & (temperature <= warmest)
     reduced = frequency * np.exp(base.log_shift(law, temperature)[0])
-    tested = observed.frequency * np.exp(base.log_shift(law, observed.temperature)[0])
-    within &= (reduced >= tested.min() / NEAR) & (reduced <= tested.max() * NEAR)
-    return Reported(
-        temperature,
-        frequency,
-        np.log(np.abs(modulus)) + 1j * np.angle(modulus),
-        standard_errors(along.real, covariance) + 1j * standard_errors(along.imag, covariance),
-        within,
-        freedom_of(diagnosis),
-    )
+    there = tests.frequency * np.exp(base.log_shift(law, tests.temperature)[0])
+    return np.asarray(within & (reduced >= there.min() / NEAR) & (reduced <= there.max() * NEAR))
 
 
-def standard_errors(slope: NDArray[np.float64], covariance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Standard errors (n,) of quantities with a `slope` (n, p) along p parameters of a `covariance` (p, p)."""
-    values, vectors = np.linalg.eigh(covariance)
-    # Where a parameter is all but free, rounding makes the least eigenvalues negative, and would a variance.
-    return np.linalg.norm(slope @ (vectors * np.sqrt(np.maximum(values, 0.0))), axis=1)
+def _table(temperature: Vector, frequency: Vector, ends: tuple[Complex, Complex, Complex]) -> pd.DataFrame:
+    """One row for each condition, of ln E* and both ends of its interval."""
+    columns = {"temperature_C": temperature, "frequency_Hz": frequency}
+    for part, unit, of in (
+        ("E", "MPa", lambda x: np.exp(x.real) * 1e-6),
+        ("phase", "deg", lambda x: np.degrees(x.imag)),
+    ):
+        columns |= {
+            f"{part}{end}_{unit}": of(value) for end, value in zip(("", "_low", "_high"), ends, strict=True)
+        }
+    table = pd.DataFrame(columns)
+    return table.assign(phase_low_deg=table["phase_low_deg"].clip(lower=0.0))  # no mix leads its load
 
 
-def freedom_of(diagnosis: Diagnosis) -> tuple[float, float]:
-    """Degrees of freedom of the standard errors of the mix: of |E*| and of the phase."""
-    freedom = diagnosis.noise.freedom
-    # Taken for known, the scatter of two to four specimens held the mix in 88 to 89 % of drawn tables, not 95.
-    return min(freedom, SCALE_FREEDOM + len(diagnosis.observed.names) - 1), freedom
+def standard_values(mix: Mixture, law: LawOfMix | None) -> pd.DataFrame:
+    """E* of the mix with 95 % intervals at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84.
 
-
-def standard_values(diagnosis: Diagnosis) -> pd.DataFrame:
-    """E* of the mix with 95 % intervals at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84."""
+    Beyond the tests the free curve knows no mix: there the law of law.json holds with its priors and its band, or
+    nothing but the first row.
+    """
     conditions = [EN_12697_26, *((t, f) for t in R_84_CELSIUS for f in R_84_HERTZ)]
     temperature, frequency = np.array(conditions).T
-    return mix_modulus(diagnosis, temperature, frequency).table()
+    there, known = tested(mix, temperature, frequency), None if law is None else law.uncertainty
+    free = mix_modulus(mix, temperature, frequency)
+    if law is not None and known is not None:
+        taken, beyond = there, _law_with_band(law.law, known, temperature, frequency)
+    else:
+        taken, beyond = there | (np.arange(there.size) == 0), (np.full(there.size, np.nan + 1j * np.nan),) * 3
+    one, low, high = (np.where(taken, *pair) for pair in zip(free, beyond, strict=True))
+    table = _table(temperature, frequency, (one, low, high))
+    return table.assign(within_the_tests=there, averaged_over=averaged_over(mix))
 
 
-def master_curve(diagnosis: Diagnosis, at: float | None = None) -> pd.DataFrame:
-    """E* of the mix with its intervals over the band of the tests, at `at` [degC] or the reference temperature."""
-    base, fitted = diagnosis.law_of_all()
-    law, observed = fitted.law, diagnosis.observed
+def _law_with_band(
+    law: Spectrum, uncertainty: Uncertainty | None, temperature: Vector, frequency: Vector
+) -> tuple[Complex, Complex, Complex]:
+    """ln E* (n,) of a law and both ends of its band, NaN where that is not known."""
+    omega = 2.0 * np.pi * frequency
+    star = law.complex_modulus(omega, temperature)
+    value = np.log(np.abs(star)) + 1j * np.angle(star)
+    half = np.nan * value if uncertainty is None else uncertainty.half(law, omega, temperature)
+    return value, value - half, value + half
+
+
+def master_curve(mix: Mixture, at: float | None = None, law: LawOfMix | None = None) -> pd.DataFrame:
+    """E* of the mix with its intervals over the band of the tests, at `at` [degC] or the reference temperature.
+
+    Columns law_... have `law` beside it, and its 95 % interval where that is known.
+    """
+    base, of_likeliest, tests = mix.base, mix.law, mix.tests
     at = base.reference_temperature if at is None else at
-    reduced = observed.frequency * np.exp(base.log_shift(law, observed.temperature)[0])
-    reduced /= float(np.exp(base.log_shift(law, np.array([at]))[0][0]))
+    reduced = tests.frequency * np.exp(base.log_shift(of_likeliest, tests.temperature)[0])
+    reduced /= float(np.exp(base.log_shift(of_likeliest, np.array([at]))[0][0]))
     decades = float(np.log10(reduced.max() / reduced.min()))
     frequency = np.geomspace(reduced.min(), reduced.max(), round(IN_A_DECADE * decades) + 2)
-    curve = mix_modulus(diagnosis, np.full(frequency.size, at), frequency).table()
-    return curve.drop(columns="within_the_tests")
+    temperature = np.full(frequency.size, at)
+    curve = _table(temperature, frequency, mix_modulus(mix, temperature, frequency))
+    if law is not None:
+        ends = _law_with_band(law.law, law.uncertainty, temperature, frequency)
+        beside = _table(temperature, frequency, ends)
+        curve = curve.join(beside.drop(columns=["temperature_C", "frequency_Hz"]).add_prefix("law_"))
+    return curve.assign(averaged_over=averaged_over(mix))
 
 
-def add_law_columns(curve: pd.DataFrame, law: Spectrum, uncertainty: Uncertainty | None) -> pd.DataFrame:
-    """The master curve with columns law_... of a law beside it, and its 95 % interval where that is known."""
-    omega, temperature = 2.0 * np.pi * curve["frequency_Hz"].to_numpy(), curve["temperature_C"].to_numpy()
-    star = law.complex_modulus(omega, temperature)
-    modulus, phase = np.abs(star) * 1e-6, np.degrees(np.angle(star))
-    columns = {"law_E_MPa": modulus, "law_phase_deg": phase}
-    if uncertainty is not None:
-        half = uncertainty.half(law, omega, temperature)
-        by, off = np.exp(half.real), np.degrees(half.imag)
-        columns |= {"law_E_low_MPa": modulus / by, "law_E_high_MPa": modulus * by}
-        columns |= {"law_phase_low_deg": phase - off, "law_phase_high_deg": phase + off}
-    return curve.assign(**columns)
-
-
-def corrected(diagnosis: Diagnosis) -> pd.DataFrame:
-    """Each test as recorded and as corrected (NaN if it was left out), and why any was left out."""
-    whole = diagnosis.observed if diagnosis.whole is None else diagnosis.whole
-    doubts = {one.row: one for one in diagnosis.suspects} if diagnosis.whole is not None else {}
-    aside = {row for row, one in doubts.items() if not one.used}
-    used = np.array([row not in aside for row in range(whole.size)])
+def corrected(diagnosis: Diagnosis, whole: Observations, mix: Mixture, record: pd.DataFrame) -> pd.DataFrame:
+    """Each test as recorded and less what is established (NaN if it was left out), with its record."""
+    ladder, used = diagnosis.ladder, record["status"].to_numpy() != LEFT_OUT
+    sure = {rung.candidate.key for rung in ladder.rungs if diagnosis.established(rung)}
+    active = tuple(one for one in ladder.fitted.active if one.key in sure)
+    law = ladder.fitted.law
     after = np.full(whole.size, np.nan + 0j)
-    after[used] = diagnosis.observed.modulus / effect_taken_off(diagnosis)
-    named = [rung.candidate for rung in diagnosis.ladder.rungs if diagnosis.taken_off(rung)]
-    applied = [
-        " + ".join(one.cause.name for one in named if used[row] and one.cause.rows(whole, one.place)[row])
-        for row in range(whole.size)
-    ]
-    # No semicolon, which a reader of the file might take for the mark between columns.
-    reasons = {row: ", ".join(one.reasons).replace("; ", ", ") for row, one in doubts.items()}
-    base, fitted = diagnosis.law_of_all()
-    shift = base.log_shift(fitted.law, whole.temperature)[0]
+    shown = ladder.joint.apparent(law, active)[0] / ladder.joint.apparent(law, ())[0]
+    after[used] = diagnosis.observed.modulus / shown
+    possible = [rung.candidate for rung in ladder.rungs if rung.candidate.key not in sure]
+    shift = mix.base.log_shift(mix.law, whole.temperature)[0]
     return pd.DataFrame(
         {
-            "specimen": np.array(whole.names)[whole.specimen],
+            "specimen": record["specimen"],
             "temperature_C": whole.temperature,
             "frequency_Hz": whole.frequency,
             "E_MPa": np.abs(after) * 1e-6,
@@ -164,8 +131,18 @@ def corrected(diagnosis: Diagnosis) -> pd.DataFrame:
             "recorded_E_MPa": np.abs(whole.modulus) * 1e-6,
             "recorded_phase_deg": np.degrees(np.angle(whole.modulus)),
             "reduced_frequency_Hz": whole.frequency * np.exp(shift),
-            "corrected_for": applied,
-            "status": np.where(used, "used", LEFT_OUT),
-            "doubts": [reasons.get(row, "") for row in range(whole.size)],
+            "corrected_for": list(_at_each(whole, used, active)),
+            "possible_and_not_corrected": list(_at_each(whole, used, possible)),
+            "status": record["status"],
+            # No semicolon, which a reader of the file might take for the mark between columns.
+            "reasons": [", ".join(one).replace("; ", ", ") for one in record["reasons"]],
+            "decided_by": record["decided_by"],
         }
     )
+
+
+def _at_each(whole: Observations, used: NDArray[np.bool_], causes: Sequence[Candidate]) -> Iterator[str]:
+    """Names of the causes that act on each test."""
+    at = [(one.cause.name, used & one.cause.rows(whole, one.place)) for one in causes]
+    for row in range(whole.size):
+        yield " + ".join(name for name, rows in at if rows[row])

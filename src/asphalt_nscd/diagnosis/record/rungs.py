@@ -10,6 +10,7 @@ from asphalt_nscd.diagnosis.criteria import CONFIDENCE
 from asphalt_nscd.diagnosis.model.bases import LN10, FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.heldout import HeldOut
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted
+from asphalt_nscd.diagnosis.record.mixture import shares
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.search.ladder import Rung
 from asphalt_nscd.diagnosis.simulation import gain
@@ -39,10 +40,12 @@ def cause_rung(
         "probability": diagnosis.probability(rung),
         "as_good": [name_at(*rival.key) for rival in rung.rivals],
         "established": diagnosis.established(rung),
-        "taken_off": diagnosis.taken_off(rung),
+        "taken_off": shares(diagnosis, rung)[0][0],
         "hangs_on": diagnosis.ladder.hangs_on.get(rung.candidate.key, []),
         "doubts": diagnosis.doubts.get(rung.candidate.key, []),
+        "log10_shift": {},
         "sentence": rung.candidate.cause.sentence,
+        "evidence": "",
         "confirmed_by": rung.candidate.cause.confirmed_by,
     }
 
@@ -96,10 +99,13 @@ def law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -
         "p_value": diagnosis.baseline_p,
         "gain": {"in_sample": gain.compare_errors(diagnosis, before, after), "held_out": held_out},
         "as_good": [],
+        "probability": None,
         "established": not diagnosis.too_few,
+        "taken_off": 0.0,
         "hangs_on": [],
         "doubts": [],
         "sentence": "the mix relaxes over many decades of time; one Burgers law for each temperature has two times",
+        "evidence": "",
         "confirmed_by": "tests over more decades of frequency, or creep at the warmest temperature",
     }
 

@@ -234,9 +234,8 @@ def one_sided(observed: Observations, loo: LooPrediction) -> str:
     return ""
 
 
-def table(observed: Observations, found: list[Suspect], loo: LooPrediction) -> pd.DataFrame:
-    """One row for each test: the phase measured and the one that |E*| alone requires, and what is suspect."""
-    suspect = {one.row: one for one in found}
+def table(observed: Observations, record: pd.DataFrame, loo: LooPrediction) -> pd.DataFrame:
+    """One row for each test: the phase measured and the one that |E*| alone requires, and its `record`."""
     flagged = {one.row for one in quality.exceeded(observed)}
     rows = range(observed.size)
     return pd.DataFrame(
@@ -249,8 +248,8 @@ def table(observed: Observations, found: list[Suspect], loo: LooPrediction) -> p
             "phase_required_deg": np.degrees(loo.required),
             "std_error_deg": np.degrees(loo.required_error),
             "quality_flag": [int(row in flagged) for row in rows],
-            "reasons": ["; ".join(suspect[row].reasons) if row in suspect else "" for row in rows],
-            "used": [int(row not in suspect or suspect[row].used) for row in rows],
+            "status": record["status"],
+            "reasons": ["; ".join(one) for one in record["reasons"]],
         }
     )
 

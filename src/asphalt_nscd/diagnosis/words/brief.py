@@ -12,7 +12,7 @@ from functools import partial
 from textwrap import wrap
 
 from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
-from asphalt_nscd.diagnosis.next_tests.fixed_orders import MANY, band
+from asphalt_nscd.diagnosis.next_tests.fixed_orders import HALF, MANY, band
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words import sentences, unexplained, verdict
@@ -29,10 +29,7 @@ MOST = 4  # sentences of a row; a reader finds the others in the reasons
 PARTS = 2  # of what stays unexplained
 FEW = 6  # specimens that are named one by one
 _wrapped = partial(wrap, width=WIDTH, break_long_words=False, break_on_hyphens=False)
-NOT_TAKEN_OFF = (
-    "law.json and corrected.csv hold the effects of possible faults; reported.csv and "
-    "master_curve.csv do not."
-)
+AVERAGED = "values of the mix weigh both, with it and without; corrected tests keep it."
 MORE = "{} more: see the reasons."
 TYPE_NOT_GIVEN = (
     "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. Say whether it "
@@ -54,7 +51,7 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
         ("Note", _notes(content)),
         ("Data", _data(content)),
         ("Fault", certain or _lack_of_certainty(content, bool(possible), bool(effects))),
-        ("Possible fault", [*possible, *_uncorrected_law(content, bool(possible))]),
+        ("Possible fault", possible),
         ("Effect", effects),
         ("Possible effect", likely),
         ("Leave out", [*_few(_doubts_by_isotherm(unused_tests(content))), *_if_kept(content)]),
@@ -103,9 +100,7 @@ def _few(said: list[str]) -> list[str]:
 
 
 def _tests(content: Content) -> list[str]:
-    read = content.get("reading")
-    if read is None:
-        return []
+    read = content["reading"]
     names = read["specimens"]
     which = counted(len(names), "specimen")
     if len(names) <= FEW:
@@ -116,14 +111,14 @@ def _tests(content: Content) -> list[str]:
 
 def _notes(content: Content) -> list[str]:
     """What a reader must know before all else."""
-    read = content.get("reading", {})
-    no_columns = read.get("test_type") == "tension-compression" and not read.get("quality_columns", True)
-    gaps = joined(read.get("not_tested", []))
+    read = content["reading"]
+    no_columns = read["test_type"] == "tension-compression" and not read["quality_columns"]
+    gaps = joined(read["not_tested"])
     said = [
         verdict.mixes(content),
         verdict.files(content),
-        TYPE_NOT_GIVEN * (read.get("test_type") == UNKNOWN),
-        TEMPERATURES_TAKEN * bool(read.get("off_target")),
+        TYPE_NOT_GIVEN * (read["test_type"] == UNKNOWN),
+        TEMPERATURES_TAKEN * bool(read["off_target"]),
         *(sentences.origin(content) if content["origin"] != "measured" else []),
         NO_QUALITY_COLUMNS * no_columns,
         f"Not tested: {gaps}." * bool(gaps),
@@ -142,13 +137,16 @@ def _data(content: Content) -> list[str]:
     of = [name for name, count in trust["use_by_specimen"].items() if count]
     alone = f" (of {specimen_named(of[0])} only)" if len(of) == 1 < len(trust["use_by_specimen"]) else ""
     parts = [f"{trust['use'] or 'None'} of {tests + out} tests can be used{corrected}{alone}"]
-    at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)" if "check_at_C" in trust else ""
+    at = ""
+    if trust["check_at_C"]:
+        at = f" (all at {joined([f'{t:g}' for t in trust['check_at_C']])} degC)"
+    elif trust["check_of"]:
+        at = f" (all of {joined(list(map(specimen_named, trust['check_of'])))})"
     parts += [f"{trust['check']} only if a check clears them{at}"] * bool(trust["check"])
     parts += [f"{trust['not_used']} cannot"] * bool(trust["not_used"])
-    side = "higher" if "higher" in content["one_sided"] else "lower"
     phases = [
-        f"Use their |E*| now. Most phases are {side} than |E*| requires: use them after the test on metal, less the "
-        "phase of metal."
+        "Use their |E*| now. Most phases lie on one side of what |E*| requires: use them after the test on metal, less "
+        "the phase of metal."
     ] * bool(content["one_sided"])
     return [" ".join([f"{', '.join(parts)}.", *phases])]
 
@@ -157,7 +155,7 @@ def _lack_of_certainty(content: Content, possible: bool, effects: bool) -> list[
     """That none is certain, and how many temperatures certainty lacks; effects: whether any of the mix is certain."""
     confined = ("odd_phases", "odd_temperatures", "contradictory_isotherms")
     checks = any("probability" in one for key in confined for one in content[key])
-    checks |= "highest_frequency" in content
+    checks |= content["highest_frequency"] is not None
     beside = ["what is to be checked first"] * checks + ["the effect below"] * effects
     said = "None is certain" if possible else "None found" + f" beside {joined(beside)}" * bool(beside)
     at = len(sentences.isotherms(content))
@@ -174,31 +172,18 @@ def _fault(rung: Content, content: Content) -> str:
     of_the_mix = rung["cause"] in verdict.OF_THE_MIX
     meaning = _sentence(rung["sentence"]) if of_the_mix else sentences.meaning(rung).strip()
     said = [_sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")]
-    taken_off = _taken_off(rung, content)
     if not sure(rung):
         same = [name for name in rung["as_good"] if name.startswith(f"{rung['cause']} @")]
         others = joined(list(map(sentences.spell_cause, same)), "or")
         said += [f"If so, {meaning[:1].lower()}{meaning[1:]}"] * bool(meaning)
         said += [f"Not certain: {others} fits as well."] * bool(same)
-        said += [f"Its probability is {sentences.probability(rung)}."] if "probability" in rung else []
-        said += ["law.json is corrected for it all the same."] * (taken_off and not same)
+        said.append(f"Its probability is {sentences.probability(rung)}: {AVERAGED}")
     elif of_the_mix:
-        said += [meaning, "law.json is free of it." * taken_off]
+        said += [meaning, "law.json is free of it." * (content["law_misses"] is not None)]
     else:
         correction = verdict.correction(rung)
         said += [meaning, f"Correction: {correction}." * bool(correction)]
     return " ".join(filter(None, said))
-
-
-def _taken_off(rung: Content, content: Content) -> bool:
-    return "law_misses" in content and bool(rung["taken_off"])
-
-
-def _uncorrected_law(content: Content, possible: bool) -> list[str]:
-    """That law.json holds what is not certain, where no such cause was taken off."""
-    taken_off = any(_taken_off(rung, content) for rung in verdict.faults(content) if not sure(rung))
-    told = possible and "law_misses" in content and not taken_off
-    return [NOT_TAKEN_OFF] * told
 
 
 def _if_kept(content: Content) -> list[str]:
@@ -223,7 +208,7 @@ def _doubts_by_isotherm(tests: list[Content]) -> list[str]:
 
 def _check(content: Content) -> list[str]:
     """What is doubtful, where, and what to check."""
-    read, tests = content.get("reading", {}), content["tests"] + len(unused_tests(content))
+    read, tests = content["reading"], content["tests"] + len(unused_tests(content))
     said = _contradictions(content["contradictory_isotherms"])
     said += [
         _sentence(
@@ -231,14 +216,14 @@ def _check(content: Content) -> list[str]:
             f"degC, {abs(one['measured_C'] - one['temperature_C']):.2g} K off its target "
             f"(AASHTO T 378 allows {OFF_TARGET:g} K). Look for a slip in the record, else test again"
         )
-        for one in read.get("off_target", [])
+        for one in read["off_target"]
     ]
-    above = read.get("limits_exceeded", [])
+    above = read["limits_exceeded"]
     for name, limit in quality.LIMITS.items():
         here = [one for one in above if one["column"] == name]
         of = [one["specimen"] for one in here]
         most = max(map(of.count, of), default=0)
-        if 2 * len(here) >= tests or 2 * most * len(read.get("specimens", [])) >= tests > 0 < most:
+        if 2 * len(here) >= tests or 2 * most * len(read["specimens"]) >= tests > 0 < most:
             said.append(
                 f"{limit.label.capitalize()} is above {limit.limit:g} {limit.unit} in "
                 f"{_where_exceeded(here, content)}. Check {limit.check}."
@@ -254,7 +239,7 @@ def _check(content: Content) -> list[str]:
 
 def _highest_frequency_check(content: Content) -> list[str]:
     """What all tests at the highest frequency are off by, and what to check."""
-    one = content.get("highest_frequency")
+    one = content["highest_frequency"]
     if one is None:
         return []
     parts = []
@@ -274,7 +259,7 @@ def _what_clears(content: Content) -> list[str]:
     """The result of a check that makes doubtful tests usable."""
     broken = [one["temperature_C"] for one in content["contradictory_isotherms"]]
     trust = content["trust"]
-    if not trust["check"] or (broken and trust.get("check_at_C") == broken):
+    if not trust["check"] or (broken and trust["check_at_C"] == broken):
         return []
     return [
         f"Repeat {'any other' if broken else 'a'} doubtful test after the check. If both agree"
@@ -293,7 +278,7 @@ def _repeatability_limit(content: Content) -> str:
 
 def _where_exceeded(above: list[Content], content: Content) -> str:
     """`all tests of specimens A and B and 3 of specimen C at 4 degC`; specimens were tested alike."""
-    specimens = content.get("reading", {}).get("specimens", [])
+    specimens = content["reading"]["specimens"]
     tests = content["tests"] + len(unused_tests(content))
     places: dict[str, list[Content]] = {}
     for one in above:
@@ -344,15 +329,12 @@ def _scatter(content: Content) -> list[str]:
 
 
 def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) -> list[str]:
-    """What the law misses, of what it was made, and where not to use it."""
-    where = verdict.predicted_badly(content)
-    misses = content.get("law_misses")
-    law = "the law" if simulated or misses is None else "law.json"
-    warning = [f"Do not use {law} {where}."] if where else []
+    """What the law misses, and of what it was made."""
+    misses = content["law_misses"]
     if simulated or misses is None:
-        return [" ".join([_sentence(verdict.simulation_miss(content, left)), *warning])]
+        return [_sentence(verdict.simulation_miss(content, left))]
     modulus, phase = (f"{misses[name]:.2g}" for name in ("mre_E_percent", "mre_phase_percent"))
-    title = next((one["title"] for one in content.get("laws", []) if one["taken"]), "2S2P1D")
+    title = next((one["title"] for one in content["laws"] if one["taken"]), "2S2P1D")
     said = [
         f"law.json, a {title} master curve, is off {verdict.held_against(content)} by {modulus} % in |E*| and {phase} "
         "% of the phase angle."
@@ -360,11 +342,9 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     if sentences.alone(content):
         said.append("Without replicates nobody knows how much of that is scatter.")
     named = [*verdict.faults(content), *verdict.effects(content)]
-    corrected = any(rung["taken_off"] for rung in named)
-    out = levels.places(*odd(content))
-    if "highest_frequency" in content:
-        out.append(f"the tests at {content['highest_frequency']['frequency_Hz']:g} Hz")
-    doubtful = content["trust"].get("check", 0) and not out
+    corrected = any(map(sure, named))
+    out = verdict.held_back(content)
+    doubtful = content["trust"]["check"] and not out
     but = " but those left out" * bool(unused_tests(content))
     if corrected or out:
         without = f" without {joined(out)}" if out else ""
@@ -372,8 +352,8 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
         said.append(f"It was fitted to the{' corrected' * corrected} tests{without}{among}.")
     elif doubtful:
         said.append(f"It was fitted to all tests{but}, doubtful ones too.")
-    said += filter(None, [content.get("undetermined")])
-    return [" ".join([*said, *warning])]
+    said += filter(None, [content["undetermined"]])
+    return [" ".join(said)]
 
 
 def _unexplained(content: Content) -> list[str]:
@@ -395,10 +375,10 @@ def _next(content: Content) -> list[str]:
     orders = content["instructions"]["orders"]
     said = []
     for number, one in enumerate(orders, 1):
-        act, tested = one["act"], one["frequencies_Hz"]
-        if len(tested) >= MANY:
-            act = act.replace(band(tested), "all frequencies")
-        why = f", {one['purpose']}" if one.get("purpose") else ""
+        tested = one["frequencies_Hz"]
+        at = "all frequencies" if len(tested) >= MANY else band(tested)
+        act = f"{one['act']}, {at}{HALF * one['half_strain']}"
+        why = f", {one['purpose']}" * bool(one["purpose"])
         cost = f" ({one['hours']:.1f} h)" if one["hours"] > 0.0 else ""
         said.append(f"{number}. {_sentence(f'{act}{why}{cost}')}")
     return said

@@ -12,7 +12,7 @@ from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
 from asphalt_nscd.diagnosis.criteria import USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.model.joint import Candidate
-from asphalt_nscd.diagnosis.next_tests.fixed_orders import band, named
+from asphalt_nscd.diagnosis.next_tests.fixed_orders import named
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
 from asphalt_nscd.diagnosis.next_tests.information import Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Sweep
@@ -213,12 +213,9 @@ def _reason(one: Open, before: float, after: float) -> str:
 
 
 def act(one: Order, done: Observations) -> str:
-    """What an order asks for, in a clause; `done` are the tests there are."""
+    """What an order asks for, in a clause without frequencies; `done` are the tests there are."""
     where = "" if one.sweep.specimen == METAL else f" at {one.sweep.temperature:g} degC"
-    half = ", at half the strain" if one.sweep.half_strain else ""
-    again = " again" if _all_tested(one, done) else ""
-    what = f"{named(one.specimens)}{again}{where}, {band(one.sweep.frequencies)}{half}"
-    return f"test {what}"
+    return f"test {named(one.specimens)}{' again' * _all_tested(one, done)}{where}"
 
 
 def _all_tested(one: Order, done: Observations) -> bool:

@@ -12,6 +12,7 @@ import numpy as np
 
 from asphalt_nscd.diagnosis import written
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.content import ITSELF, LEFT_OUT
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, LEAST_ISOTHERMS, NAMED
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import shown, three_digits
@@ -46,12 +47,14 @@ def odd(content: Content) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
 
 def unused_tests(content: Content) -> list[Content]:
     """Suspect tests that the diagnosis left out, in their order."""
-    return [one for one in content["suspect_tests"] if not one["used"]]
+    return [one for one in content["suspect_tests"] if one["status"] == LEFT_OUT]
 
 
 def doubtful(content: Content) -> list[Content]:
-    """Suspect tests that the diagnosis used all the same, in their order."""
-    return [one for one in content["suspect_tests"] if one["used"]]
+    """Tests that their own isotherm speaks against and that the diagnosis used all the same, in their order."""
+    return [
+        one for one in content["suspect_tests"] if ITSELF in one["decided_by"] and one["status"] != LEFT_OUT
+    ]
 
 
 def suspect_change(content: Content) -> str:
@@ -180,7 +183,7 @@ def _sure(rung: Content, content: Content) -> str:
     if rung["cause"] == BOND_MAPPING:
         return f"Established: {rung['evidence']}."
     chance = "below one in a million" if rung["p_value"] < 1e-6 else _percentage(rung["p_value"])
-    likely = f", with a probability of {probability(rung)}" if "probability" in rung else ""
+    likely = f", with a probability of {probability(rung)}" if rung["probability"] is not None else ""
     doubts = _doubts(rung, content)
     if doubts:
         first, *more = doubts
@@ -207,7 +210,7 @@ def _doubts(rung: Content, content: Content) -> list[str]:
     if rung["hangs_on"]:
         doubts.append(f"It is no longer found if {joined(rung['hangs_on'], 'or')} is left out")
     doubts += rung["doubts"]
-    if rung.get("probability", 1.0) < NAMED:
+    if rung["probability"] is not None and rung["probability"] < NAMED:
         doubts.append(f"Its probability is {probability(rung)}, and certainty takes {100.0 * NAMED:.0f} %")
     if doubts and (0 < len(isotherms(content)) < LEAST_ISOTHERMS or not content["tested"]):
         doubts.append(f"Besides, {lacking(content)}")
@@ -221,7 +224,7 @@ def probability(rung: Content) -> str:
 
 def worsens(rung: Content) -> bool:
     """Whether the tests, counted alike, fit worse with a cause than without it (above WORSE times the misfit)."""
-    fits = rung.get("gain", {}).get("in_sample", {}).get("rms_over_scatter")
+    fits = rung["gain"]["in_sample"].get("rms_over_scatter")
     return bool(fits) and fits["after"] > WORSE * fits["before"]
 
 
@@ -247,13 +250,13 @@ def spell_cause(name: str) -> str:
 
 def alone(content: Content) -> bool:
     """Whether nothing tells the scatter (one specimen, none stated), so that it is what a smooth law leaves."""
-    known = content["scatter"].get("from_replicates", True)
+    known = content["scatter"]["from_replicates"]
     return not (known or content["provenance"]["scatter_stated"])
 
 
 def isotherms(content: Content) -> list[float]:
     """Nominal temperatures tested [degC]; none where a file does not say."""
-    return list(content.get("reading", {}).get("isotherms_C", []))
+    return list(content["reading"]["isotherms_C"])
 
 
 def exceeds_scatter(content: Content) -> bool:

@@ -18,7 +18,7 @@ def answer(content: Content) -> str:
 
 def summary(content: Content) -> str:
     """The answer and the reasons, one titled part after another; parts with nothing to say are left out."""
-    read = content.get("reading", {"notes": []})
+    read = content["reading"]
     law, named = sentences.law_of_the_mix(content), sentences.causes(content)
     simulated, two_laws = verdict.simulation_miss(content), verdict.two_laws(content)
     none_named = list(filter(None, [unexplained.absence_note(content)]))
@@ -34,7 +34,6 @@ def summary(content: Content) -> str:
                 sentences.capital(simulated),
                 *two_laws,
                 *([f"{law[0]}. {law[1]}".rstrip()] if law else []),
-                *verdict.extrapolation_warning(content),
             ],
         ),
         ("Causes", [f"{cause}. {sure}" for cause, sure in named] + none_named),

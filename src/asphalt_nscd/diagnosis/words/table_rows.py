@@ -18,7 +18,7 @@ def scatter_rows(content: Content) -> list[list[str]]:
 def excess_rows(content: Content) -> list[list[str]]:
     """Excess of the phase [degrees] by isotherm, its standard error, and the machine's drift of deformation [%]."""
     rows = []
-    for one in content.get("excess_phase", []):
+    for one in content["excess_phase"]:
         drift = one["deformation_drift_percent"]
         excess, error = (f"{one[key]:.2f}" for key in ("excess_deg", "standard_error_deg"))
         rows.append(
@@ -30,7 +30,7 @@ def excess_rows(content: Content) -> list[list[str]]:
 def measured_limits(content: Content) -> list[list[str]]:
     """Cause, its limit, how often it was named of how many tries at 1, 2, 3 times it; how often another was named."""
     rows = []
-    for cause, by_times in content.get("measured_limits", {}).items():
+    for cause, by_times in content["measured_limits"].items():
         limit = content["detection_limits"][cause]
         value, unit = shown(limit["value"], limit["unit"])
         stated = [cause.replace("_", " "), f"{three_digits(value)} {unit}".rstrip()]

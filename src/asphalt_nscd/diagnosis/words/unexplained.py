@@ -59,7 +59,7 @@ def left(content: Content) -> list[str]:
         return [*(_part_left(one, content) for one in parts), *remarks(content)]
     pattern = content["largest_pattern_left"]
     if content["verdict"] == "unexplained_structure" and pattern is not None and exceeds_scatter(content):
-        if pattern["pattern"].count("slope over temperature") and len(isotherms(content)) == 1:
+        if len(isotherms(content)) == 1:  # where a slope over temperature has no meaning
             return _largest(content)
         return [f"{pattern['pattern']}: {three_digits(pattern['z'])} times its standard error"]
     return []
@@ -73,16 +73,16 @@ def remarks(content: Content, most: int = LARGEST) -> list[str]:
     """
     places = levels.places(*odd(content))
     said = [f"These sizes include what is odd: {joined(places)}"] if places else []
-    specimens = len(content.get("reading", {}).get("specimens", []))
+    specimens = len(content["reading"]["specimens"])
     largest = sorted(content["discrepancy"], key=lambda one: -one["size"])[:most]
-    if 1 < specimens < MANY_SPECIMENS and any(one["specimen"] is not None for one in largest):
+    if not places and 1 < specimens < MANY_SPECIMENS and any(one["specimen"] is not None for one in largest):
         said.append(f"{specimens} specimens are too few to tell which one is odd")
     return said
 
 
 def _largest(content: Content) -> list[str]:
     """The mean residual that is left over most, where a slope over temperature has no meaning."""
-    found = [one for one in content["unexplained"] if "specimen" not in one][:1]
+    found = [one for one in content["unexplained"] if one["specimen"] is None][:1]
     return [
         f"{abs(one['residual_E_percent']):.1f} % in |E*| and {abs(one['residual_phase_deg']):.1f} deg in the phase at "
         f"{one['temperature_C']:g} degC, {one['frequency_Hz']:g} Hz"

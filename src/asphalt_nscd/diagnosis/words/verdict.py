@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
@@ -37,7 +36,6 @@ TWO_FREQUENCIES = (
     "or more."
 )
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
-MUCH_WORSE, POOR = 2.0, 10.0  # times the error of before, and percent, above which a prediction is warned of
 
 
 def mixes(content: Content) -> str:
@@ -109,14 +107,14 @@ def simulation_miss(content: Content, left: Mapping[str, float] | None = None) -
 
 def two_laws(content: Content) -> list[str]:
     """What the free master curve and law.json are, and why their errors differ; empty unless both are fitted."""
-    misses = content.get("law_misses")
+    misses = content["law_misses"]
     if misses is None or not named(content, LAW) or bonded(content):
         return []
-    kept = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung["taken_off"]]
-    are, them = ("is", "it") if len(kept) == 1 else ("are", "them")
-    not_certain = f"{are} not certain, so law.json is not corrected for {them}."
-    doubtful = f" {joined(kept).capitalize()} {not_certain}" * bool(kept)
-    out = levels.places(*odd(content))
+    unsure = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung["established"]]
+    are, them = ("is", "it") if len(unsure) == 1 else ("are", "them")
+    weighed = f"{are} not certain: law.json is the mean with {them} and without, by their probability."
+    doubtful = f" {joined(unsure).capitalize()} {weighed}" * bool(unsure)
+    out = held_back(content)
     fewer = f", those of law.json without {joined(out)}" if out else ""
     neither = " Tests left out are in neither." * bool(unused_tests(content))
     return [
@@ -126,6 +124,15 @@ def two_laws(content: Content) -> list[str]:
         f"{COMMON} a test counts less the more it scatters, and a temperature or a specimen that no master curve fits "
         f"counts little. All these misfits are means over the temperatures{fewer}.{neither}",
     ]
+
+
+def held_back(content: Content) -> list[str]:
+    """What law.json and reported.csv are made without until a check clears it, in words; empty where nothing is."""
+    if not content["trust"]["held_back"]:
+        return []
+    highest = content["highest_frequency"]
+    at = [] if highest is None else [f"the tests at {highest['frequency_Hz']:g} Hz"]
+    return [*levels.places(*odd(content)), *at]
 
 
 def held_against(content: Content) -> str:
@@ -177,7 +184,7 @@ def _cannot_judge(content: Content) -> str:
     """Why tests without a finding do not say that the simulation is right, and what to add."""
     if not sentences.alone(content):
         return TWO_FREQUENCIES
-    single = len(content.get("reading", {}).get("specimens", [])) == 1
+    single = len(content["reading"]["specimens"]) == 1
     lacking = "One specimen" if single else "Specimens without a common temperature and frequency"
     return (
         f"{lacking} cannot judge a law: nothing was found, but the scatter from test to test is not known. Test "
@@ -201,65 +208,10 @@ def _misfit_beyond_bonds(content: Content) -> str:
     return f"{added * (bonds > content['scatter']['modulus_percent'])}{scatter}{by}"
 
 
-def _left_out(content: Content) -> tuple[dict[float, float], float] | None:
-    """Errors of |E*| in percent of each isotherm predicted from the others, and their mean between the two ends."""
-    rungs = content["ladder"]
-    gain = rungs[-1]["gain"].get("held_out", {}).get("leave_one_isotherm_out") if rungs else None
-    if gain is None:
-        return None
-    errors = {float(t): one["mre_E_percent"]["after"] for t, one in gain["averages_by_temperature"].items()}
-    return errors, mean_averages(gain, inner=True)["mre_E_percent"]["after"]
-
-
-def predicted_badly(content: Content) -> str:
-    """Where the law predicts temperatures left out of its fit with errors above POOR percent, in words; else empty."""
-    found = _left_out(content)
-    if found is None:
-        return ""
-    errors, between = found
-    if between > POOR:
-        return "at temperatures that were not tested"
-    return "beyond the tested temperatures" if max(errors[min(errors)], errors[max(errors)]) > POOR else ""
-
-
-def extrapolation_warning(content: Content) -> list[str]:
-    """A sentence on errors at temperatures left out of the fit, where they forbid to use the law there; else empty."""
-    found = _left_out(content)
-    if found is None or not predicted_badly(content):
-        return []
-    errors, between = found
-    coldest, warmest = min(errors), max(errors)
-    inner = sorted({*errors} - {coldest, warmest})
-    between_them = f"at {inner[0]:g} degC" if len(inner) == 1 else "between them on average"
-    ends = [
-        f"{_two(errors[t])} % at {t:g} degC{' (where these tests are doubtful)' * _wrong(t, content)}"
-        for t in (coldest, warmest)
-    ]
-    return [
-        f"Each temperature was also predicted from the others by {COMMON}. |E*| is then off by {', '.join(ends)} and "
-        f"{_two(between)} % {between_them}."
-    ]
-
-
 def _two(error: float) -> str:
     return f"{float(f'{error:.2g}'):g}"
 
 
-def _wrong(temperature: float, content: Content) -> bool:
-    """Whether a cause is named at an isotherm, or the isotherm contradicts itself."""
-    broken = [one["temperature_C"] for one in content["contradictory_isotherms"]]
-    return temperature in [*broken, *(rung.get("where") for rung in content["ladder"])]
-
-
-def predicts_badly(gain: dict[str, Any], inner: bool) -> bool:
-    """Whether errors at what is left out exceed POOR percent and MUCH_WORSE times those before.
-
-    The fit before may have seen what is left out. `inner` counts only temperatures between others.
-    """
-    found = mean_averages(gain, inner)
-    return any(errors["after"] > max(MUCH_WORSE * errors["before"], POOR) for errors in found.values())
-
-
 def files(content: Content) -> str:
     """A sentence for each file of a folder that gave no test; empty where all did."""
-    return " ".join(content.get("reading", {}).get("files_without_tests", []))
+    return " ".join(content["reading"]["files_without_tests"])

@@ -17,6 +17,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
+from asphalt_nscd.diagnosis.content import LEFT_OUT
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.exports.card import Card, Settings, make_card
 from asphalt_nscd.exports.law import ExportedLaw
@@ -88,15 +89,15 @@ def corrected_workbook(folder: Path) -> Path:
     """Write corrected.xlsx from what a diagnosis left in a folder: tests, what was left out, the mix, its law."""
     # A specimen called 01 is not 1.
     tests = pd.read_csv(folder / "corrected.csv", dtype={"specimen": str})
-    used = tests["status"] == "used"
+    out = tests["status"] == LEFT_OUT
     sheets = {
-        "Corrected": tests[used].drop(columns="status"),
-        "Left out": tests[~used].drop(columns=["E_MPa", "phase_deg", "corrected_for"]),
+        "Corrected": tests[~out],
+        "Left out": tests[out].drop(columns=["E_MPa", "phase_deg", "corrected_for"]),
         "Mix": pd.read_csv(folder / "reported.csv"),
         "Master curve": pd.read_csv(folder / "master_curve.csv"),
     }
     content = read_diagnosis([folder / "diagnosis.json"])
-    if "law_parameters" in content:
+    if content["law_parameters"]:
         sheets["Law"] = pd.DataFrame(
             [
                 (
@@ -206,7 +207,7 @@ def _measured(card: Card, tests: pd.DataFrame) -> pd.DataFrame:
     )
 
 
-def _diagnosis(book: Workbook, content: dict[str, Any]) -> None:
+def _diagnosis(book: Workbook, content: Mapping[str, Any]) -> None:
     """Suspect tests and unexplained conditions, where the diagnosis has any, and its notes."""
     for key, title in (("suspect_tests", "Suspects"), ("unexplained", "Unexplained")):
         if content.get(key):

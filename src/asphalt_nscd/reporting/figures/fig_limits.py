@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -79,7 +80,7 @@ def _panel(axes: Axes, cause: str, rows: dict[str, float], unit: str, found: dic
     axes.set_title(title, loc="left", fontsize=8.0, pad=2.0)
 
 
-def _amplitude(rung: dict[str, Any]) -> tuple[float, float]:
+def _amplitude(rung: Mapping[str, Any]) -> tuple[float, float]:
     """Amplitude of a cause and its standard error."""
     estimate = next(iter(rung["parameters"].values()))
     return estimate["value"], estimate["std_error"] or 0.0

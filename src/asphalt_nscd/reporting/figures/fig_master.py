@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -71,15 +71,15 @@ class Master:
 
 
 def master(
-    tests: pd.DataFrame, residuals: pd.DataFrame, content: dict[str, Any], curve: Sequence[Path] = ()
+    tests: pd.DataFrame, residuals: pd.DataFrame, content: Mapping[str, Any], curve: Sequence[Path] = ()
 ) -> Master:
     """The master curve of tests (specimen, temperature_C, frequency_Hz, E_MPa, phase_deg) of a diagnosis.
 
     `content` is that of diagnosis.json, `curve` may hold its master_curve.csv.
     """
-    rung = next((one for one in content["ladder"] if "log10_shift" in one), None)
+    rung = next((one for one in content["ladder"] if one["log10_shift"]), None)
     shift = {float(t): value for t, value in rung["log10_shift"].items()} if rung else {}
-    stated = shift or content.get("reading", {}).get("isotherms_C") or residuals["temperature_C"].unique()
+    stated = shift or content["reading"]["isotherms_C"]
     nominal = [float(at) for at in stated]
     placed = [_reduced(one, nominal, shift) for one in (tests, residuals)]
     modelled = conditions(placed[1].assign(temperature_C=placed[1]["isotherm_C"]), content["scatter"])
@@ -96,7 +96,9 @@ def _reduced(tests: pd.DataFrame, nominal: list[float], shift: dict[float, float
 def _law(curve: Sequence[Path]) -> pd.DataFrame:
     """The law of law.json with its bands, else the free master curve."""
     table = read_csv(only_file(curve, "master curve"))
-    frame = pd.DataFrame({name: table.numbers(name) for name in table.columns})
+    numbers = [name for name in table.columns if name != "averaged_over"]
+    # A band that is not known is empty.
+    frame = pd.DataFrame({name: table.numbers_or_nan(name) for name in numbers}).dropna(axis=1, how="all")
     own = {name: name.removeprefix("law_") for name in frame if name.startswith("law_")}
     frame = frame.rename(columns={"frequency_Hz": "reduced_Hz"})
     return frame[["reduced_Hz", *own]].rename(columns=own) if own else frame

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -78,7 +79,7 @@ def against(tests: pd.DataFrame, extended: Sequence[Path]) -> pd.DataFrame:
 
 
 def panel(
-    axes: Axes, means: pd.DataFrame, quantity: str, when: str, scatter: dict[str, float]
+    axes: Axes, means: pd.DataFrame, quantity: str, when: str, scatter: Mapping[str, Any]
 ) -> PatchCollection:
     """Draw residuals of "E" or "phase", "before" or "after", both on one scale; `means` as `conditions` gives it."""
     columns = [RESIDUALS[quantity].format(one) for one in BEFORE_AFTER]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ import matplotlib
 import pandas as pd
 from matplotlib.figure import Figure
 
+from asphalt_nscd.diagnosis.content import LEFT_OUT
 from asphalt_nscd.diagnosis.criteria import NOTABLE
 from asphalt_nscd.diagnosis.written import (
     BEFORE_AFTER,
@@ -59,9 +60,7 @@ def charts(
 ) -> dict[str, Chart]:
     """By name: "law" (master curve), "specimens" (Black diagram), "causality" and "residuals" (maps)."""
     content, used, tests = read_diagnosis(diagnosis), read_residuals(residuals), read_causality(causality)
-    stated = [
-        float(at) for at in content.get("reading", {}).get("isotherms_C") or used["temperature_C"].unique()
-    ]
+    stated = [float(at) for at in content["reading"]["isotherms_C"]]
     used = used.assign(isotherm_C=panels.isotherm_of(used["temperature_C"], stated))
     means = conditions(used.assign(temperature_C=used["isotherm_C"]), content["scatter"])
     tests = tests.assign(isotherm_C=panels.isotherm_of(tests["temperature_C"], stated))
@@ -156,7 +155,7 @@ def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
     return Chart(
         "specimens",
         "Specimens: Black diagram and master curve",
-        "Tests of one material should lie on one curve. Hollow points mark suspect tests. Lines in the Black diagram: "
+        "Tests of one material should lie on one curve. Hollow points: not simply used. Lines in the Black diagram: "
         "modelled before (dashed) and with all causes.",
         plots,
     )
@@ -192,21 +191,21 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
         plots.append(inline(figure, f"{specimen_named(str(name))}, {counted(len(worst), 'test')}"))
     caption = (
         "In degrees. The required phase is computed from |E*| alone, and no delay or offset is taken off. The list of "
-        "doubtful tests uses the phases at the other frequencies too, so its numbers differ. Cross: suspect, not used. "
-        "Ring: suspect, used. Triangle: a quality limit is exceeded."
+        "doubtful tests uses the phases at the other frequencies too, so its numbers differ. Cross: left out. "
+        "Ring: doubtful or held back. Triangle: a quality limit is exceeded."
     )
     return Chart(
         "causality", "Phase measured less the phase that |E*| requires", caption if plots else NONE, plots
     )
 
 
-def _marks(row: dict[str, Any]) -> list[str]:
-    suspect = [] if not row["reasons"] else ["doubtful" if row["used"] else "not used"]
+def _marks(row: Mapping[str, Any]) -> list[str]:
+    suspect = [] if not row["reasons"] else ["not used" if row["status"] == LEFT_OUT else "doubtful"]
     return suspect + ["quality"] * bool(row["quality_flag"])
 
 
 @style.journal
-def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: dict[str, float]) -> Chart:
+def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: Mapping[str, Any]) -> Chart:
     plots = []
     for quantity, (name, unit) in {"E": ("|E*|", "%"), "phase": ("phase", "°")}.items():
         for when in BEFORE_AFTER:
@@ -222,7 +221,7 @@ def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: dict[str, floa
     return Chart("residuals", "Residual map", caption, plots, HINT.replace("test", "condition"))
 
 
-def _condition(row: dict[str, Any], tests: pd.DataFrame, shown: tuple[str, str, str, str]) -> str:
+def _condition(row: Mapping[str, Any], tests: pd.DataFrame, shown: tuple[str, str, str, str]) -> str:
     name, unit, column, when = shown
     own = tests[
         (tests["isotherm_C"] == row["temperature_C"]) & (tests["frequency_Hz"] == row["frequency_Hz"])
@@ -235,7 +234,7 @@ def _condition(row: dict[str, Any], tests: pd.DataFrame, shown: tuple[str, str, 
     )
 
 
-def _words(row: dict[str, Any]) -> str:
+def _words(row: Mapping[str, Any]) -> str:
     modulus, phase = three_digits(float(row["E_MPa"])), minus(f"{row['phase_deg']:.1f}")
     words = (
         f"{specimen_named(str(row['specimen']))}, {celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: "
@@ -245,7 +244,7 @@ def _words(row: dict[str, Any]) -> str:
         off = _signed(row["phase_deg"] - row["phase_required_deg"])
         words += f"; {off}° from what |E*| alone requires (standard error {row['std_error_deg']:.1f}°)"
     if row["reasons"]:
-        words += f"; suspect, {'used' if row['used'] else 'not used'}: {row['reasons']}"
+        words += f"; {row['status']}: {row['reasons']}"
     return said((row["specimen"], row["isotherm_C"], row["frequency_Hz"]), words)
 
 

@@ -15,11 +15,12 @@ from asphalt_nscd.reporting.pages.style import filled
 
 PAGE = "comparison.html"
 HEAD = (
-    *("mix", "rank", "|E*| [MPa]", "95 %", "phase [°]", "95 %", "tests", "left out"),
+    *("mix", "rank", "|E*| [MPa]", "95 %", "phase [°]", "95 %", "tests"),
+    *("check first", "left out"),
     *("certain causes", "possible causes"),
 )
 NOTES = (
-    "All values are of the mix: the effects of all causes in the table are taken off, of the possible ones too.",
+    "All values are of the mix: certain causes are taken off, possible ones by their probability.",
     "A rank of several places says that the tests do not tell these mixes apart.",
 )
 
@@ -63,6 +64,7 @@ def _row(row: Any) -> list[str]:
         f"{row.phase_deg:.1f}",
         f"{row.phase_low_deg:.1f} to {row.phase_high_deg:.1f}",
         str(row.tests),
+        str(row.check_first),
         str(row.left_out),
         row.causes or "none",
         row.possible_causes or "none",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -30,7 +30,6 @@ from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_
 
 TEMPLATE, PAGE = "diagnosis_page.html", "diagnosis.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
-NOT_THERE = ". That is more than before: do not use this law there"
 INNER = "leave_one_isotherm_out"
 HELD_OUT = {
     "leave_one_isotherm_out": "each temperature between others predicted from them",
@@ -63,7 +62,7 @@ def write_page(folder: Path, title: str) -> Path:
     return folder / PAGE
 
 
-def render(content: dict[str, Any], title: str, links: Sequence[str] = ()) -> str:
+def render(content: Mapping[str, Any], title: str, links: Sequence[str] = ()) -> str:
     """HTML of what `sections` gives; `links` are files beside the page that hold what it shows."""
     return filled(TEMPLATE, title=title, links=links, **content)
 
@@ -91,9 +90,7 @@ def sections(
         # Table 4 is of the paper's mix: beside measurements of another it says nothing.
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "diagnosis": content,
-        "ladder": [
-            _rung(rung, rung is rungs[-1], content) | {"as_good": _members(rung["as_good"])} for rung in rungs
-        ],
+        "ladder": [_rung(rung, content) | {"as_good": _members(rung["as_good"])} for rung in rungs],
         "way": _way(ladder) if ladder else None,
         "baseline": _baseline(content["baseline"]),
         "law": law(content),
@@ -102,7 +99,7 @@ def sections(
         "limits_caption": _limits_caption(content["estimates_spread"]),
         "not_testable": [(member_name(row["cause"]), row["needs"]) for row in content["not_testable"]],
         "alike": [_members(group) for group in content["indistinguishable"]],
-        "notes": [*content.get("reading", {}).get("notes", []), *content["notes"]],
+        "notes": [*content["reading"]["notes"], *content["notes"]],
         "suspects": [_suspect(one) for one in content["suspect_tests"]],
         "withdrawn": _members(content["withdrawn"]),
         "confirmed_by": [
@@ -111,7 +108,7 @@ def sections(
     }
 
 
-def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any]:
+def first(content: Mapping[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any]:
     """What a laboratory reads first, as the terminal says it; of a study, with the errors of its own campaigns.
 
     `content` is that of diagnosis.json; `ladder` is the one ladder.csv of a study, empty for a table alone.
@@ -130,7 +127,6 @@ def first(content: dict[str, Any], ladder: Sequence[Path] = ()) -> dict[str, Any
         "doubtful": sentences.doubtful_change(content),
         "law": sentences.law_of_the_mix(content),
         "of_intervals": sentences.interval_note(content),
-        "beyond": verdict.extrapolation_warning(content),
         "causes": sentences.causes(content),
         "no_cause": unexplained.absence_note(content),
         "of_what_is_left": unexplained.OF_WHAT_IS_LEFT,
@@ -164,9 +160,9 @@ def value(reported: dict[str, Any]) -> str:
     )
 
 
-def law(content: dict[str, Any]) -> dict[str, Any] | None:
+def law(content: Mapping[str, Any]) -> dict[str, Any] | None:
     """What a page shows of law.json: title, parameters with intervals, errors of all laws; None if none was fitted."""
-    if "law_parameters" not in content:
+    if not content["law_parameters"]:
         return None
     taken = next(one for one in content["laws"] if one["taken"])
     return {
@@ -184,7 +180,7 @@ def law(content: dict[str, Any]) -> dict[str, Any] | None:
     }
 
 
-def _parameter(key: str, one: dict[str, Any]) -> list[str]:
+def _parameter(key: str, one: Mapping[str, Any]) -> list[str]:
     """A row: name, value and 95 % interval, unit, and whether the tests determine it."""
     name, factor, unit = PARAMETERS.get(key, (key, 1.0, ""))
     low_high = one["interval_95"]
@@ -192,7 +188,7 @@ def _parameter(key: str, one: dict[str, Any]) -> list[str]:
     return [name, _number(factor * one["value"]), interval, unit, "yes" if one["determined"] else "no"]
 
 
-def scatter(content: dict[str, Any]) -> str:
+def scatter(content: Mapping[str, Any]) -> str:
     """Paragraph on the scatter that one test is taken to have, in % of |E*| and degrees, and how it is known."""
     scatter = content["scatter"]
     sizes = (
@@ -201,7 +197,7 @@ def scatter(content: dict[str, Any]) -> str:
     )
     if scatter["from_replicates"]:
         return f"{sizes} at all isotherms: within specimens, and what changes from one mounting to the next."
-    if content["provenance"].get("scatter_stated"):
+    if content["provenance"]["scatter_stated"]:
         return f"{sizes}, as was stated."
     return f"{sizes} as far as a smooth law can tell, for nothing was repeated."
 
@@ -216,8 +212,8 @@ def _table4(paths: Sequence[Path]) -> list[list[str]]:
     return [[place_name(row[0]), *map(_number, row[1:])] for row in frame.itertuples(index=False)]
 
 
-def _rung(rung: dict[str, Any], last: bool, content: dict[str, Any]) -> dict[str, Any]:
-    """A row of the ladder; after the last, whether the law may be used where nothing was tested."""
+def _rung(rung: Mapping[str, Any], content: Mapping[str, Any]) -> dict[str, Any]:
+    """A row of the ladder."""
     gain = rung["gain"]
     # How bonds carry the law is computed, and widened by no scatter of the tests.
     factor = 1.0 if rung["cause"] == BOND_MAPPING else sentences.widened(content)
@@ -225,15 +221,13 @@ def _rung(rung: dict[str, Any], last: bool, content: dict[str, Any]) -> dict[str
         "cause": _cause(rung),
         "sentence": rung["sentence"],
         "p": _chance(rung["p_value"]),
-        "evidence": rung.get("evidence"),
+        "evidence": rung["evidence"],
         "parameters": [_estimate(name, value, factor) for name, value in rung["parameters"].items()],
         "hangs_on": rung["hangs_on"],
         "doubts": rung["doubts"],
         "in_sample": _gain(gain["in_sample"]),
         "held_out": {
-            HELD_OUT[name] + _warning(last, gain["held_out"][name], name == INNER): _gain(
-                gain["held_out"][name], name == INNER
-            )
+            HELD_OUT[name]: _gain(gain["held_out"][name], name == INNER)
             for name in HELD_OUT
             if name in gain["held_out"]
         },
@@ -259,30 +253,25 @@ def _way(paths: Sequence[Path]) -> dict[str, Any]:
     return {"head": ["", *map(place_name, at), "mean"], "rows": rows}
 
 
-def _suspect(one: dict[str, Any]) -> list[str]:
+def _suspect(one: Mapping[str, Any]) -> list[str]:
     where = [one["specimen"], place_name(one["temperature_C"]), f"{one['frequency_Hz']:g} Hz"]
-    return [*where, "yes" if one["used"] else "no", typeset("; ".join(one["reasons"]))]
+    return [*where, one["status"], typeset("; ".join(one["reasons"])), one["decided_by"]]
 
 
 def _members(names: list[str]) -> list[str]:
     return [member_name(name) for name in names]
 
 
-def _cause(rung: dict[str, Any]) -> str:
+def _cause(rung: Mapping[str, Any]) -> str:
     place = place_name(rung["where"])
     return _words(rung["cause"]) + (f" ({place})" if place else "")
 
 
-def _estimate(name: str, estimate: dict[str, Any], factor: float) -> str:
+def _estimate(name: str, estimate: Mapping[str, Any], factor: float) -> str:
     return typeset(f"{name.replace('_', ' ')} {sentences.estimate(estimate, factor)}")
 
 
-def _warning(last: bool, gain: dict[str, Any], inner: bool) -> str:
-    """Of the last law, the others being steps on the way to it."""
-    return NOT_THERE if last and verdict.predicts_badly(gain, inner) else ""
-
-
-def _gain(gain: dict[str, Any], inner: bool = False) -> list[str]:
+def _gain(gain: Mapping[str, Any], inner: bool = False) -> list[str]:
     """Errors as in Table 4, mean over temperatures, and residuals over scatter; empty where these are none.
 
     inner: of temperatures between others only.
@@ -291,15 +280,15 @@ def _gain(gain: dict[str, Any], inner: bool = False) -> list[str]:
     return [" → ".join(map(_number, pair.values())) for pair in pairs]
 
 
-def _baseline(baseline: dict[str, Any]) -> list[list[str]]:
+def _baseline(baseline: Mapping[str, Any]) -> list[list[str]]:
     phase = baseline["mre_phase_percent"]
     rows = sorted(baseline["mre_E_percent"].items(), key=lambda row: float(row[0]))
     return [[place_name(float(at)), _number(error), _number(phase[at])] for at, error in rows]
 
 
-def _unexplained(row: dict[str, Any]) -> list[str]:
+def _unexplained(row: Mapping[str, Any]) -> list[str]:
     numbers = ("frequency_Hz", "residual_E_percent", "residual_phase_deg", "z")
-    specimen = f"{specimen_named(row['specimen'])}, set aside" if "specimen" in row else "mean"
+    specimen = f"{specimen_named(row['specimen'])}, set aside" if row["specimen"] else "mean"
     return [place_name(row["temperature_C"]), *(_number(row[name]) for name in numbers), specimen]
 
 

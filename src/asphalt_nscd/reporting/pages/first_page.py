@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -80,7 +80,7 @@ def first_page(
 
 
 def _lead(
-    content: dict[str, Any], way: pd.DataFrame, gained: list[tuple[str, ...]], orders: list[dict[str, Any]]
+    content: Mapping[str, Any], way: pd.DataFrame, gained: list[tuple[str, ...]], orders: list[dict[str, Any]]
 ) -> list[tuple[str, str]]:
     """Four sentences beside the pictures: what is wrong, why and how sure that is, what was gained, what to do."""
     sure: list[str] = []

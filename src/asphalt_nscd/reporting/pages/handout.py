@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from datetime import UTC, datetime
 from io import BytesIO
 from pathlib import Path
@@ -114,7 +114,8 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf.text_block(value(content["reported"]))
     pdf.set_font(FONT, size=SIZE)
     pdf.text_block(
-        "In brackets: 95 % intervals. Points: tests as measured. Line and values: the mix, without the faults below."
+        "In brackets: 95 % intervals. Points: tests as measured. Line and values: the mix; certain faults are taken "
+        "off, possible ones by their probability."
     )
     pdf.picture(*_pictures(folder, content))
     pdf.heading("|E*| in MPa and phase in ° over temperature and frequency")
@@ -132,7 +133,7 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     return folder / PDF
 
 
-def _about(content: dict[str, Any], title: str, heading: Heading) -> list[tuple[str, str]]:
+def _about(content: Mapping[str, Any], title: str, heading: Heading) -> list[tuple[str, str]]:
     """Names and values of what was tested, by whom and how; the campaign stands for a mix without a name."""
     reading = content["reading"]
     kind = TEST_TYPES.get(reading["test_type"], "not stated")
@@ -143,13 +144,13 @@ def _about(content: dict[str, Any], title: str, heading: Heading) -> list[tuple[
         "kind of test": kind[:1].upper() + kind[1:],
         "specimens": ", ".join(reading["specimens"]),
         "temperatures": typeset(f"{temperatures} degC"),
-        "tests": str(content["tests"] + sum(not one["used"] for one in content["suspect_tests"])),
+        "tests": str(content["tests"] + content["trust"]["not_used"]),
     }
     return [(name.capitalize(), text) for name, text in (said | tested).items() if text]
 
 
 @style.journal
-def _pictures(folder: Path, content: dict[str, Any]) -> list[Any]:
+def _pictures(folder: Path, content: Mapping[str, Any]) -> list[Any]:
     """Master curves of |E*| and phase."""
     tests = read_residuals([folder / "residuals.csv"])
     curve = [path for path in [folder / "master_curve.csv"] if path.is_file()]
@@ -186,7 +187,7 @@ def _grid(pdf: _Report, table: pd.DataFrame) -> None:
                 line.cell(_interval(row), style=None if row.within_the_tests else grey)
     pdf.set_font(FONT, size=SIZE)
     if not table["within_the_tests"].all():
-        pdf.text_block("Grey: extrapolated, no test was made near it.")
+        pdf.text_block("Grey: no test was made near it; by the law of the mix with its band.")
 
 
 def _interval(row: Any) -> str:
@@ -198,7 +199,7 @@ def _interval(row: Any) -> str:
     )
 
 
-def _findings(content: dict[str, Any], wanted: Sequence[str]) -> list[tuple[str, str]]:
+def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[str, str]]:
     """Of the answer the rows with a label of `wanted`, as they are printed."""
     kept = [
         (label, [one for one in said if not any(word in one for word in AT_COMMAND_LINE)])
@@ -210,19 +211,19 @@ def _findings(content: dict[str, Any], wanted: Sequence[str]) -> list[tuple[str,
 
 def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
     """Tests that were not used or are doubtful, and why."""
-    told = table[(table["status"] != "used") | (table["doubts"] != "")]
+    told = table[table["status"] != "used"]
     if told.empty:
         pdf.text_block(f"No test was left out: all {len(table)} were used.")
         return
-    groups = told.groupby(["specimen", "temperature_C", "status", "doubts"], sort=False)["frequency_Hz"]
+    groups = told.groupby(["specimen", "temperature_C", "status", "reasons"], sort=False)["frequency_Hz"]
     lines = [
-        (specimen, place_name(at), joined([f"{f:g}" for f in hertz]), status, typeset(doubts))
-        for (specimen, at, status, doubts), hertz in groups
+        (specimen, place_name(at), joined([f"{f:g}" for f in hertz]), status, typeset(reasons))
+        for (specimen, at, status, reasons), hertz in groups
     ]
     pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
 
 
-def _law(pdf: _Report, content: dict[str, Any]) -> None:
+def _law(pdf: _Report, content: Mapping[str, Any]) -> None:
     found = law(content)
     if found is None:
         return

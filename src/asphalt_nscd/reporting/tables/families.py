@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -34,7 +35,7 @@ def make(measured: list[Path], diagnosis: list[Path], ladder: Sequence[Path] = (
         data, content = read_measured([table]), read_diagnosis([found])
         errors = {name: mean_relative_error(data, law) for name, law in _fitted(data).items()}
         held = _held_out(content)
-        row = {
+        row: dict[str, Any] = {
             # The first table is the study's own; the others are called after their folders.
             "data": found.parent.name if number else content["origin"],
             "origin": content["origin"],
@@ -76,7 +77,7 @@ def _fitted(data: pd.DataFrame) -> dict[str, pd.DataFrame]:
     }
 
 
-def _held_out(content: dict) -> dict[str, float]:
+def _held_out(content: Mapping[str, Any]) -> dict[str, float]:
     """Errors at temperatures left out of the fit, mean over those between others."""
     for rung in content["ladder"]:
         if rung["cause"] == "relaxation_spectrum":
