@@ -337,7 +337,7 @@ def test_version_names_the_commit(monkeypatch, tmp_path):
     # as in an environment that lies in no repository of ours
     monkeypatch.setattr(commit, "PACKAGE", tmp_path)
     assert commit.commit() == "unknown"
-    (tmp_path / commit.BUILT_FROM).write_text("abc\n")
+    (tmp_path / commit.PACKED_FROM).write_text("abc\n")
     assert commit.commit() == "abc"
 
 

@@ -4,7 +4,7 @@ import re
 
 from asphalt_nscd.files.digests import damaged, set_aside
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.paths import require_writable
+from asphalt_nscd.files.paths import is_file, require_writable
 from asphalt_nscd.nscd.cores import cores
 from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
 from asphalt_nscd.workflow_support.clock import mistrust_future
@@ -30,6 +30,16 @@ def check(study, source):
             sys.exit("\n".join(f"error: {set_aside(file)}" for file in found))
 
 
+def located(value):
+    """A study with the files that are not in this folder, but in the repository, by their place there."""
+    if isinstance(value, dict):
+        return {key: located(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [*map(located, value)]
+    shared = isinstance(value, str) and "/" in value and CLONE and not is_file(value) and is_file(CLONE / value)
+    return os.path.relpath(CLONE / value) if shared else value
+
+
 # How large the attack on the diagnosis is: apart from any study. On the command line numbers come as text.
 ATTACK = {name: int(number) for name, number in config.pop("attack", {}).items()}
 
@@ -37,7 +47,7 @@ try:
     for _path in workflow.configfiles:
         refuse_repeated_keys(_path)
     _source = " + ".join(map(os.path.relpath, workflow.configfiles)) or "configuration"
-    STUDY = complete_study(config, source=_source, schema=Path(shipped("workflow/schemas/study.schema.yaml")))
+    STUDY = complete_study(located(config), source=_source, schema=Path(shipped("workflow/schemas/study.schema.yaml")))
     if MAIN and workflow.is_main_process:
         check(STUDY, _source)
 except InputError as error:
