@@ -36,6 +36,7 @@ if MAIN and not os.access(".", os.W_OK):
 
 BARE = find_spec("pandas") is None  # a Snakemake whose jobs have an environment of their own
 
+from asphalt_nscd.files.commit import TOLD, commit
 from asphalt_nscd.nscd.core_cache import cache_base
 from asphalt_nscd.workflow_support import sources
 from asphalt_nscd.workflow_support.lock import release_stale_locks
@@ -58,6 +59,7 @@ else:
     from asphalt_nscd.files.store import VERSIONS, package_versions
 
     os.environ[VERSIONS] = json.dumps(package_versions())  # what each of many jobs would find out for itself
+os.environ[TOLD] = commit()
 os.environ["PATH"] = os.pathsep.join(places)
 os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, searched))
 os.environ["ASPHALT_NSCD_CACHE"] = cache_base()

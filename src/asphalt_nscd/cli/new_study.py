@@ -59,4 +59,5 @@ def command(
     config, notes = new_study(name, measurements, options)
     for note in notes:
         click.echo(note)
-    click.echo(f"wrote {config}; run: snakemake --cores all --configfile {config}")
+    rules = "" if Path("Snakefile").is_file() else "--snakefile CLONE/Snakefile "  # of the repository
+    click.echo(f"wrote {config}; run: snakemake --cores all {rules}--configfile {config}")

@@ -7,6 +7,7 @@ import io
 import json
 import os
 import platform
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -179,6 +180,21 @@ def provenance() -> dict[str, Any]:
         "python": platform.python_version(),
         "packages": json.loads(told) if told else package_versions(),
     }
+
+
+def made_by(folder: str | Path) -> dict[str, dict[str, int]]:
+    """For each part of a folder of results, how many of its files which commit made."""
+    import h5py
+
+    makers = digests.makers(folder)
+    for path in Path(folder).rglob("[!.]*.h5"):
+        with h5py.File(path, "r") as file:
+            makers[path] = json.loads(file.attrs.get("provenance", "{}")).get("git_commit", "unknown")
+    parts: dict[str, Counter[str]] = {}
+    for path, commit_of_it in sorted(makers.items()):
+        part = path.relative_to(folder).parts[0]
+        parts.setdefault(part, Counter())[commit_of_it] += 1
+    return {part: dict(count) for part, count in parts.items()}
 
 
 def package_versions() -> dict[str, str]:
