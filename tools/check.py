@@ -46,6 +46,7 @@ PUBLISHED = (
     "faults",
     "forecast",
     "fuzz",
+    "layouts",
     "mapping",
     "measured",
     "mutants",
