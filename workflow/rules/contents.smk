@@ -198,6 +198,7 @@ KEPT += [
 if COMMON_LAW:
     KEPT += [
         COMMON_LAW,
+        NAMED,
         expand(EXTENDED_LAWS, sample=SAMPLES, temperature=TEMPERATURES, frequency=FREQUENCIES),
         expand("<results>/extended/rigs/{sample}.json", sample=SAMPLES),
     ]
