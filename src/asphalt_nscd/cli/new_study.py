@@ -59,5 +59,4 @@ def command(
     config, notes = new_study(name, measurements, options)
     for note in notes:
         click.echo(note)
-    rules = "" if Path("Snakefile").is_file() else "--snakefile CLONE/Snakefile "  # of the repository
-    click.echo(f"wrote {config}; run: snakemake --cores all {rules}--configfile {config}")
+    click.echo(f"wrote {config}; run: snakemake --cores all --configfile {config}")
