@@ -1,4 +1,4 @@
-"""What pyproject.toml cannot say: the wheel knows its commit, and a build leaves nothing behind."""
+"""What pyproject.toml cannot say: wheel and sdist know their commit, and a build leaves nothing behind."""
 
 import atexit
 import shutil
@@ -9,27 +9,38 @@ from pathlib import Path
 from setuptools import setup
 from setuptools.command.build import build
 from setuptools.command.build_py import build_py
+from setuptools.command.sdist import sdist
 
 sys.path.insert(0, str(Path(__file__).parent / "src"))
-from asphalt_nscd.files.commit import BUILT_FROM, commit  # noqa: E402
+from asphalt_nscd.files.commit import PACKED_FROM, commit  # noqa: E402
+
+
+def note_commit(package):
+    path = Path(package, PACKED_FROM)
+    path.unlink(missing_ok=True)  # may be a link to the file of the repository
+    path.write_text(commit() + "\n", encoding="utf-8")
 
 
 class Build(build):
     """In a folder that vanishes: modules that were deleted since must not come back from an old build/."""
 
-    def initialize_options(self) -> None:
+    def initialize_options(self):
         super().initialize_options()
         self.build_base = tempfile.mkdtemp(prefix="asphalt-nscd-")
         atexit.register(shutil.rmtree, self.build_base, ignore_errors=True)
 
 
 class BuildPy(build_py):
-    """With the commit in a file."""
-
-    def run(self) -> None:
+    def run(self):
         super().run()
         if not self.editable_mode:
-            Path(self.build_lib, "asphalt_nscd", BUILT_FROM).write_text(commit() + "\n", encoding="utf-8")
+            note_commit(Path(self.build_lib, "asphalt_nscd"))
 
 
-setup(cmdclass={"build": Build, "build_py": BuildPy})
+class Sdist(sdist):
+    def make_release_tree(self, base_dir, files):
+        super().make_release_tree(base_dir, files)
+        note_commit(Path(base_dir, "src/asphalt_nscd"))
+
+
+setup(cmdclass={"build": Build, "build_py": BuildPy, "sdist": Sdist})

@@ -1,6 +1,7 @@
 """All rows in one table, those beside peers, and how each stage grows: cpu ~ spheres^exponent.
 
-python benchmarks/collect.py ROWS.csv... --output TABLE.csv --beside BESIDE.csv --growth GROWTH.csv --earlier FOLDER
+python benchmarks/collect.py ROWS.csv... --output TABLE.csv --beside BESIDE.csv --growth GROWTH.csv
+    --million MILLION.csv --earlier FOLDER
 
 Rows of the FOLDER's benchmark.csv that were not measured now are kept, and say of which commit they are: the largest
 size of the growth alone takes most of an hour.
@@ -17,6 +18,15 @@ import pandas as pd
 from rows import COLUMNS
 
 from asphalt_nscd.files.store import write_table
+from asphalt_nscd.nscd.bonds.implicit_operator import LARGEST_FACTORED
+
+OF_UNKNOWNS = (
+    "condense",
+    "reduced, a cycle",
+    "condensed, factors",
+    "condensed, a step",
+)  # which are solved for
+LEFT = 0.66  # of the spheres poured, in the specimen
 
 
 def exponents(table: pd.DataFrame) -> pd.DataFrame:
@@ -40,6 +50,30 @@ def exponents(table: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def million(table: pd.DataFrame) -> pd.DataFrame:
+    """What each stage of a million spheres costs one core, estimated within one algorithm.
+
+    Multigrid, above `LARGEST_FACTORED` unknowns, is no continuation of the factors that serve below. Where one size
+    alone was measured with it, time and memory are taken as proportional to the number of spheres.
+    """
+    rows = []
+    done = table[(table.topic == "growth") & table.cpu_s.notna()].sort_values("spheres")
+    for case, group in done.groupby("case", sort=False):
+        if case in OF_UNKNOWNS:
+            group = group[6 * LEFT * group.spheres > LARGEST_FACTORED]
+        if group.empty:
+            continue
+        sizes, largest = np.log(group.spheres.tail(2).to_numpy(float)), group.iloc[-1]
+        row = {"stage": case, "from": int(group.spheres.tail(2).min()), "to": int(largest.spheres)}
+        for column, name, unit in (("cpu_s", "cpu_h", 3600.0), ("memory_MB", "memory_GB", 1000.0)):
+            cost = np.log(group[column].tail(2).to_numpy(float))
+            power = (cost[-1] - cost[0]) / (sizes[-1] - sizes[0]) if sizes.size > 1 else 1.0
+            row[f"exponent_{name}"] = power
+            row[name] = largest[column] * (1e6 / largest.spheres) ** power / unit
+        rows.append(row)
+    return pd.DataFrame(rows)
+
+
 def with_earlier(table: pd.DataFrame, folder: Path) -> pd.DataFrame:
     """Rows measured now, then those of an earlier table that are not among them."""
     commit = json.loads((folder / "provenance.json").read_text())["git_commit"][:7]
@@ -57,6 +91,7 @@ def main() -> None:
     parser.add_argument("--output", type=Path, required=True)
     parser.add_argument("--beside", type=Path, required=True)
     parser.add_argument("--growth", type=Path, required=True)
+    parser.add_argument("--million", type=Path, required=True)
     parser.add_argument("--earlier", type=Path)
     told = parser.parse_args()
     table = pd.concat([pd.read_csv(path) for path in told.rows], ignore_index=True)[COLUMNS]
@@ -65,6 +100,7 @@ def main() -> None:
     write_table(told.output, table)
     write_table(told.beside, table[table.topic != "growth"])
     write_table(told.growth, exponents(table))
+    write_table(told.million, million(table))
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from asphalt_nscd.files.store import load, write_table
 
 QUANTITIES = [
     "poured_mm", "vibrated_mm", "solid_fraction", "coordination", "overlap_at_rest", "overlap_falling",
-    "overlap_vibrating", "weight_balance", "unbalanced_force", "cpu_s",
+    "overlap_vibrating", "weight_balance", "unbalanced_force",
 ]  # fmt: skip
 
 
@@ -37,7 +37,6 @@ def row(version: str, path: str) -> dict[str, object]:
         "overlap_vibrating": found["largest_overlap_moving_m"] / smallest,
         "weight_balance": found["weight_balance"],
         "unbalanced_force": found["unbalanced_force"],
-        "cpu_s": found["cpu_s"],
     }
 
 

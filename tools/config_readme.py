@@ -21,14 +21,14 @@ Run it with `make study CONFIG=my.yaml` or `snakemake --cores all --configfile m
 A key that is left out takes its default, which is the paper's value. An unknown key is refused. Paths are relative to
 the folder in which you call.
 
-This page is made from `workflow/schemas/study.schema.yaml`, and the options that it names, by
+This page is made from `src/asphalt_nscd/study/study.schema.yaml`, and the options that it names, by
 `python tools/config_readme.py`.
 """
 
 
 def page() -> str:
     """The whole file: a section for each key of the first level, a line for each key."""
-    schema = read_schema(ROOT / "workflow/schemas/study.schema.yaml")
+    schema = read_schema()
     text, section = HEAD, ""
     for key, meaning, default in _keys(schema, schema, ""):
         if key.split(".")[0] != section:

@@ -6,6 +6,7 @@ that a page names in a link. Links are rewritten to match, so that pages read th
 
 from __future__ import annotations
 
+import ast
 import logging
 import posixpath
 import re
@@ -29,6 +30,7 @@ PAGES = {
     "plugins/README.md": "plugins.md",
 }
 MODULES = ROOT / "src/asphalt_nscd"
+API = "api/asphalt_nscd"
 LINK = re.compile(r"(?<=\]\()([^)#\s]+)")
 
 
@@ -37,6 +39,7 @@ def on_files(files: Files, *, config: Any) -> Files:
     for room in sorted(path.parent.name for path in MODULES.glob("*/__init__.py")):
         if room != "cli" and files.get_file_from_path(f"api/asphalt_nscd/{room}.html") is None:
             logging.getLogger("mkdocs.hooks").warning(f"docs/api lacks asphalt_nscd.{room}; run make api.")
+    files.append(File.generated(config, "reference.md", content=_reference([file.src_uri for file in files])))
     for path, name in PAGES.items():
         files.append(File.generated(config, name, abs_src_path=str(ROOT / path)))
     for page in list(files.documentation_pages()):
@@ -55,6 +58,21 @@ def on_page_markdown(markdown: str, *, page: Any, config: Any, files: Files) -> 
         return match[0] if target is None else posixpath.relpath(_in_site(target), folder)
 
     return LINK.sub(moved, markdown)
+
+
+def _reference(pages: list[str]) -> str:
+    """A table of the rooms of the package: what each is for, and its modules."""
+    rows = []
+    for room in sorted(path.parent for path in MODULES.glob("*/__init__.py")):
+        modules = [page for page in pages if page.startswith(f"{API}/{room.name}/")]
+        named = ", ".join(
+            f"[{posixpath.splitext(page)[0].split('/', 3)[3]}]({page})" for page in sorted(modules)
+        )
+        meaning = ast.get_docstring(ast.parse((room / "__init__.py").read_text(encoding="utf-8"))) or ""
+        if room.name != "cli":
+            rows.append(f"| [{room.name}]({API}/{room.name}.html) | {meaning.splitlines()[0]} | {named} |")
+    head = ["# Reference of modules", "", f"[What a user imports]({API}.html), and the rooms behind it:", ""]
+    return "\n".join([*head, "| room | what it holds | modules |", "|---|---|---|", *rows, ""])
 
 
 def _targets(page: str, text: str) -> Iterator[str]:

@@ -1,35 +1,50 @@
 #!/bin/sh
-# Build the wheel and use it as a newcomer would: in an empty environment, outside the repository, without Snakemake.
-#   PYTHON=python3 sh tools/try_wheel.sh    where there is no .venv
+# Build sdist and wheel, and use the wheel as a newcomer would: in an empty environment, outside the repository, without
+# Snakemake, with each Python from 3.11 on that this machine has.
+#   PYTHON=python3 sh tools/try_wheel.sh [dist]    keeps both in a folder; PYTHON is needed where there is no .venv
 set -eu
 
 repository=$(cd "$(dirname "$0")/.." && pwd)
 python=${PYTHON:-$repository/.venv/bin/python}
 place=$(mktemp -d)
 trap 'rm -rf "$place"' EXIT
+dist=$(mkdir -p "${1:-$place/dist}" && cd "${1:-$place/dist}" && pwd)
 
+"$python" -m pip install --quiet --disable-pip-version-check --target "$place/uv" uv
+uv=$place/uv/bin/uv
 left() { git -C "$repository" status --porcelain --ignored | sed '/egg-info/d'; }
 before=$(left)
-"$python" -m pip wheel --quiet --disable-pip-version-check --no-deps --wheel-dir "$place" "$repository"
+"$uv" build --quiet --out-dir "$dist" "$repository" # the wheel from the sdist
 [ "$before" = "$(left)" ] || { echo "error: building the wheel left files in the repository" >&2; exit 1; }
 
-"$python" -m venv --without-pip "$place/venv"
-programs=$place/venv/bin
-[ -d "$programs" ] || programs=$place/venv/Scripts # on Windows
 # Versions as locked, so that the trial does not depend on what was released today.
 sed -n '/^[a-zA-Z0-9]/s/ *\\$//p' "$repository/requirements.txt" >"$place/locked.txt" # without the hashes
-"$python" -m pip --python "$programs/python" install --quiet --disable-pip-version-check \
-    --constraint "$place/locked.txt" "$place"/asphalt_nscd-*.whl
+commit=$(git -C "$repository" describe --always --abbrev=40)
 
-cp -r "$repository/data/tutorial/exports" "$place/exports"
-cd "$place"
-unset PYTHONPATH
-PATH="$programs:/usr/bin:/bin"
-python -c "import importlib.util as u; assert not any(map(u.find_spec, ('snakemake', 'numba', 'matplotlib'))), 'an extra came along'"
-python -c "import asphalt_nscd as an; print(an.diagnose('exports', draws=an.Draws(500)))" | grep '^Data ' >/dev/null
-asphalt-nscd --version
-asphalt-nscd diagnose exports --output out --draws 500 | grep "Written to out"
-asphalt-nscd export out/law.json --format abaqus --output mix.inp
-asphalt-nscd figure --help >/dev/null
-grep -q '^\*VISCOELASTIC' mix.inp
-echo "The wheel works without the repository and without Snakemake."
+try() { (
+    "$uv" venv --quiet --python "$1" "$place/venv"
+    programs=$place/venv/bin
+    [ -d "$programs" ] || programs=$place/venv/Scripts # on Windows
+    "$uv" pip install --quiet --python "$programs/python" --constraint "$place/locked.txt" "$dist"/asphalt_nscd-*.whl
+    rm -rf "$place/work"
+    mkdir "$place/work"
+    cp -r "$repository/data/tutorial/exports" "$place/work/exports"
+    cd "$place/work"
+    unset PYTHONPATH
+    PATH="$programs:/usr/bin:/bin"
+    python -c "import importlib.util as u; assert not any(map(u.find_spec, ('snakemake', 'numba', 'matplotlib'))), 'an extra came along'"
+    python -c "import asphalt_nscd as an; print(an.diagnose('exports', draws=an.Draws(500)))" | grep '^Data ' >/dev/null
+    asphalt-nscd --version | grep "commit $commit" >/dev/null
+    asphalt-nscd diagnose exports --output out --draws 500 | grep "Written to out" >/dev/null
+    asphalt-nscd export out/law.json --format abaqus --output mix.inp
+    asphalt-nscd figure --help >/dev/null
+    grep -q '^\*VISCOELASTIC' mix.inp
+    echo "The wheel works with $(python --version), without the repository and without Snakemake."
+); rm -rf "$place/venv"; }
+
+try "$python"
+for minor in 11 12 13 14; do
+    other=$("$uv" python find --no-python-downloads "3.$minor" 2>/dev/null ||
+        ls "${PYENV_ROOT:-$HOME/.pyenv}/versions/3.$minor".*/bin/python 2>/dev/null | tail -n 1)
+    [ -z "$other" ] || [ "$("$other" -V)" = "$("$python" -V)" ] || try "$other"
+done

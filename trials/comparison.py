@@ -1,8 +1,7 @@
 """Two folders of results, compared bit for bit but for when, where and how fast they were made.
 
-Left out are files that hold nothing else (`OF_A_RUN`), hidden ones, which hold digests of others, the commit in
-JSON and on pages, and of each test its seconds; of HDF5, which holds addresses of its own, every array and attribute
-is compared instead of the bytes.
+Left out are files that hold nothing else (`OF_A_RUN`), hidden ones, which hold digests of others, and the commit in
+JSON and on pages. Of HDF5, which holds addresses of its own, every array and attribute is compared, not the bytes.
 """
 
 from __future__ import annotations
@@ -16,16 +15,10 @@ import numpy as np
 OF_A_RUN = (
     "logs", "benchmarks", "compiled", "report.html", "workflow.html", "timings.csv", "timings.md", "pages/timings.html",
 )  # fmt: skip
-# Attributes of HDF5; the digest is of the seconds too.
-_ATTRIBUTES_OF_A_RUN = ("provenance", "digest", "cpu_s")
-_COLUMN_OF_A_RUN = b"cpu_s"
 _COMMIT = {
     ".json": re.compile(rb'(?<="git_commit": ")[^"]*'),
     ".html": re.compile(rb"(?<=, commit )[^ <]*(?=\.</p>)"),
 }
-_ROW = re.compile(rb"<tr>.*?</tr>", re.DOTALL)
-_CELL = re.compile(rb"<t[hd][ >].*?</t[hd]>", re.DOTALL)
-_TAG = re.compile(rb"<[^>]*>")
 
 
 def differences(first: Path, second: Path) -> list[str]:
@@ -56,21 +49,7 @@ def _content(path: Path) -> object:
     text = path.read_bytes()
     if path.suffix in _COMMIT:
         text = _COMMIT[path.suffix].sub(b"", text)
-    if path.suffix == ".csv":
-        return _without_seconds([line.split(b",") for line in text.splitlines()]) or text
-    if path.suffix == ".html":
-        rows = _without_seconds([_CELL.findall(row) for row in _ROW.findall(text)])
-        return [_ROW.sub(b"", text), rows] if rows else text
     return text
-
-
-def _without_seconds(rows: list[list[bytes]]) -> list[list[bytes]]:
-    """Rows of a table without the column of that name, nothing if there is none. A row of other length stays whole."""
-    head = [_TAG.sub(b"", cell) for cell in rows[0]] if rows else []
-    if _COLUMN_OF_A_RUN not in head:
-        return []
-    column = head.index(_COLUMN_OF_A_RUN)
-    return [row[:column] + row[column + 1 :] if len(row) == len(head) else row for row in rows]
 
 
 def _array(item: h5py.Dataset | h5py.Group) -> object:
@@ -78,7 +57,7 @@ def _array(item: h5py.Dataset | h5py.Group) -> object:
 
 
 def _attributes(item: h5py.Dataset | h5py.Group) -> dict[str, object]:
-    return {name: _exactly(item.attrs[name]) for name in item.attrs if name not in _ATTRIBUTES_OF_A_RUN}
+    return {name: _exactly(item.attrs[name]) for name in item.attrs if name != "provenance"}
 
 
 def _exactly(value: object) -> object:

@@ -9,7 +9,6 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from asphalt_nscd.bending.collect import collect
 from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, read_json, write_table
@@ -80,7 +79,7 @@ def findings(paths: Mapping[str, Any]) -> Iterable[Finding]:
             [load(path, "specimen").attributes for path in paths["specimens"]],
             [outcomes.moved_above(deposit.arrays) for deposit in deposits],
         ),
-        outcomes.numerics(tests, table["time_steps"], collect(list(map(Path, paths["stopped"])))),
+        outcomes.numerics(tests, table["time_steps"], pd.read_csv(paths["costs"])),
         outcomes.profile(load(paths["profile"], "test").arrays),
         outcomes.laws_and_samples(tests, table["packing"], readings, facets, list(blocked.values())),
         outcomes.agreement(table["table4"], _refit_errors(paths["fitted"], paths["measured"])),

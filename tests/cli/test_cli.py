@@ -57,6 +57,15 @@ def test_every_step_is_listed_and_explains_itself():
         assert all(option.help for option in command.params if isinstance(option, click.Option)), step
 
 
+@pytest.mark.parametrize("page", ["cp437", "cp1252"])
+def test_a_console_that_lacks_letters_shows_help_all_the_same(page):
+    """As of Windows, before Python 3.15."""
+    command = [sys.executable, "-m", "asphalt_nscd.cli", "new-study", "--help"]
+    given = os.environ | {"PYTHONIOENCODING": page}
+    done = subprocess.run(command, capture_output=True, encoding=page, env=given)
+    assert done.returncode == 0 and "new-study" in done.stdout and not done.stderr
+
+
 def test_what_a_laboratory_types_stands_first_and_nothing_is_missing():
     first, steps = CliRunner().invoke(cli.group, ["--help"]).output.split("Steps of the workflow:")
     named = [re.findall(r"^  ([a-z][a-z-]*)  ", part, re.M) for part in (first, steps)]
@@ -337,7 +346,7 @@ def test_version_names_the_commit(monkeypatch, tmp_path):
     # as in an environment that lies in no repository of ours
     monkeypatch.setattr(commit, "PACKAGE", tmp_path)
     assert commit.commit() == "unknown"
-    (tmp_path / commit.BUILT_FROM).write_text("abc\n")
+    (tmp_path / commit.PACKED_FROM).write_text("abc\n")
     assert commit.commit() == "abc"
 
 

@@ -25,7 +25,10 @@ ARROWS = {
     "forecasting": ["files", "measurements", "nscd", "rheology", "specimen"],
     "diagnosis": ["files", "measurements", "nscd", "rheology", "bending"],
     "exports": ["files", "measurements", "rheology", "diagnosis"],
-    "reporting": ["files", "measurements", "nscd", "rheology", "specimen", "bending", "forecasting", "diagnosis"],
+    "reporting": [
+        "files", "workflow_support", "measurements", "nscd", "rheology", "specimen", "bending", "forecasting",
+        "diagnosis",
+    ],
     "study": ["files", "measurements", "rheology", "specimen", "packings", "reporting"],
     "table_import": ["files", "measurements", "study", "reporting"],
     "api": [

@@ -21,7 +21,16 @@ pytestmark = pytest.mark.slow
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 COLUMNS = ["topic", "case", "spheres", "time_step_s", "cpu_s", "memory_MB", "remark"]
-OUTPUTS = ["--output", "table.csv", "--beside", "beside.csv", "--growth", "growth.csv"]
+OUTPUTS = [
+    "--output",
+    "table.csv",
+    "--beside",
+    "beside.csv",
+    "--growth",
+    "growth.csv",
+    "--million",
+    "million.csv",
+]
 
 
 def run(folder, script, *arguments):
@@ -66,6 +75,20 @@ def test_exponents_are_those_of_the_powers(tmp_path):
     assert pd.isna(growth.exponent_of_time["cut"]) and growth.cpu_s_of_largest["cut"] == 1.0
 
 
+def test_a_million_spheres_are_extrapolated_within_one_algorithm(tmp_path):
+    """Factors below, multigrid above: where one size alone has multigrid, cost is proportional to it."""
+    sizes = (1000, 3000, 30_000, 200_000)
+    rows = [
+        ("growth", "condense", n, None, n**1.3, 0.1 * n if n < 1e5 else 28.0 * n / 1e3, None) for n in sizes
+    ]
+    rows += [("growth", "vibrate", n, None, 1e-3 * n**1.2, 0.01 * n, None) for n in sizes]
+    write_table(tmp_path / "rows.csv", pd.DataFrame(rows, columns=COLUMNS))
+    tell(tmp_path, "collect.py", "rows.csv", *OUTPUTS)
+    table = pd.read_csv(tmp_path / "million.csv").set_index("stage")
+    assert table.memory_GB["condense"] == pytest.approx(28.0) and table.exponent_cpu_h["condense"] == 1.0
+    assert table.cpu_h["vibrate"] == pytest.approx(1e-3 * 1e6**1.2 / 3600)
+
+
 def test_rows_that_are_not_measured_again_are_kept_with_their_commit(tmp_path):
     """FCLIB's problems have no size, and are known by their name."""
     earlier = [
@@ -95,7 +118,7 @@ def test_packings_are_compared_by_version_and_size(tmp_path):
         attributes = {
             "spheres": 3, "seed": seed, "layer_height_m": height, "poured_layer_height_m": 0.065, "solid_fraction": 0.6,
             "coordination": 5.0, "largest_overlap_m": 1e-5, "largest_overlap_moving_m": 4e-5,
-            "poured_largest_overlap_moving_m": 2e-4, "weight_balance": 1e-4, "unbalanced_force": 2e-4, "cpu_s": 7.0,
+            "poured_largest_overlap_moving_m": 2e-4, "weight_balance": 1e-4, "unbalanced_force": 2e-4,
         }  # fmt: skip
         save(tmp_path / f"s{seed}.h5", "deposit", {"radius": np.array([1e-3, 2e-3])}, attributes)
     said = tell(tmp_path, "packings.py", "old=s1.h5", "new=s1.h5", "new=s2.h5", "--output", "table.csv")
@@ -247,3 +270,41 @@ def test_counts_keep_the_grading(monkeypatch):
     table = mapping.scaled_counts(1416, BENCHMARKS.parent / "data/paper/table2_counts.csv")
     assert table.diameter_mm.tolist() == [2, 4, 6.3, 8, 10]
     assert table["count"].tolist() == [1180, 159, 49, 21, 7]
+
+
+@pytest.fixture
+def counts(tmp_path):
+    path = tmp_path / "counts.csv"
+    path.write_text("diameter_mm,count\n6.3,20\n")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("arguments", "least"),
+    [
+        (["pouring.py", "nscd", "counts.csv", "--rest", "rest.npy"], 1),
+        (["growth.py", "prepare", 40, "counts.csv", "--specimen", "specimen.h5"], 3),
+        (["density.py", "counts.csv"], 4),
+    ],
+)
+def test_what_pours_runs_at_its_smallest_size(tmp_path, counts, arguments, least):
+    run(tmp_path, *arguments, "--output", "rows.csv")
+    rows = pd.read_csv(tmp_path / "rows.csv")
+    assert len(rows) >= least and rows.select_dtypes("number").notna().any().any()
+
+
+@pytest.mark.parametrize("method", ["sweeps", "condensed", "reduced", "chain"])
+def test_a_cycle_by_each_method(tmp_path, beam, monkeypatch, method):
+    monkeypatch.syspath_prepend(str(BENCHMARKS))
+    import growth
+
+    arrays = {"position": beam.position, "radius": beam.radius}
+    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
+    attributes = beam.geometry.attributes() | {"area": beam.area}
+    save(tmp_path / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    write_law(
+        tmp_path / "law.json", Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9), source="fitted", temperature=15.0
+    )
+    growth.reduce(str(tmp_path / "beam.h5"), str(tmp_path / "model.h5"))
+    run(tmp_path, "cycle.py", method, "model.h5", "law.json", "--specimen", "beam.h5", "--output", "rows.csv")
+    assert pd.read_csv(tmp_path / "rows.csv").cpu_s.iloc[0] > 0.0

@@ -11,7 +11,7 @@ import pytest
 
 from asphalt_nscd.files import store
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import atomic_path, load, read_json, save
+from asphalt_nscd.files.store import atomic_path, load, made_by, read_json, save, write_json
 
 ARRAYS = {"a/b": np.arange(6.0).reshape(2, 3), "c": np.array([1, 2])}
 ATTRIBUTES = {"name": "s1", "value": 0.5, "count": 3}
@@ -120,3 +120,24 @@ def test_versions_are_found_or_told_by_a_workflow(monkeypatch):
     monkeypatch.setenv(store.VERSIONS, json.dumps(found | {"numpy": "0.1"}))
     assert store.provenance()["packages"] == found | {"numpy": "0.1"}
     assert store.package_versions() == found
+
+
+@pytest.mark.parametrize(("mask", "mode"), [(0o077, 0o600), (0o002, 0o664), (0o022, 0o644)])
+def test_the_umask_is_obeyed(tmp_path, mask, mode):
+    before = os.umask(mask)
+    try:
+        write_json(tmp_path / "a.json", {})
+    finally:
+        os.umask(before)
+    assert (tmp_path / "a.json").stat().st_mode & 0o777 == mode
+
+
+def test_each_part_names_the_commit_that_made_it(tmp_path, monkeypatch):
+    """Of a folder whose tests are old and whose table was made since."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("ASPHALT_NSCD_WITHIN_WORKFLOW", "1")
+    for number, commit in enumerate(("old", "old", "new")):
+        monkeypatch.setenv("ASPHALT_NSCD_COMMIT", commit)
+        save(f"results/mine/tests/{number}.h5", "test", ARRAYS, ATTRIBUTES)
+        write_json("results/mine/law.json", {"number": number})
+    assert made_by("results/mine") == {"law.json": {"new": 1}, "tests": {"new": 1, "old": 2}}

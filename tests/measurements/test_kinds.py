@@ -14,7 +14,7 @@ from asphalt_nscd.measurements.kinds import BENDING, TEST_TYPES, UNKNOWN
 from asphalt_nscd.table_import.words import WORDS
 
 ROOT = Path(__file__).parents[2]
-STUDY = "workflow/schemas/study.schema.yaml"
+STUDY = "src/asphalt_nscd/study/study.schema.yaml"
 
 
 def properties(schema: str, *keys: str) -> dict:

@@ -15,10 +15,9 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.options import options_of
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
-from asphalt_nscd.study.schema import read_schema
+from asphalt_nscd.study.schema import SCHEMA, read_schema
 
 ROOT = Path(__file__).parents[2]
-SCHEMA = ROOT / "workflow/schemas/study.schema.yaml"
 TRAPEZOID = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
 PACKING = {"frictions": [0.5], "seed": 1, "temperature_C": 15, "frequency_Hz": 3}
 
@@ -40,7 +39,7 @@ def config(tmp_path):
 
 
 def complete(config):
-    return complete_study(config, "my.yaml", SCHEMA)
+    return complete_study(config, "my.yaml")
 
 
 def refused(config, *names):
@@ -77,6 +76,17 @@ def test_numbers_in_scientific_notation_without_a_point_are_numbers(config):
     assert complete(config)["test"]["amplitude_m"] == 1e-6
 
 
+def test_texts_of_the_command_line_are_numbers_where_the_schema_wants_some(config):
+    """Snakemake hands over what stands in a list of --config as it was typed."""
+    full = complete(config)
+    config["frequencies_Hz"] = [str(value) for value in config["frequencies_Hz"]]
+    config["specimens"]["seeds"] = [str(seed) for seed in config["specimens"]["seeds"]]
+    assert complete(config) == full
+    config["frequencies_Hz"] = ["three"]
+    with pytest.raises(InputError, match="frequencies_Hz.0. is 'three', but must be a number"):
+        complete(config)
+
+
 def test_every_key_of_the_schema_has_a_description():
     def nameless(rule, path):
         for key, value in rule.get("properties", {}).items():
@@ -84,7 +94,7 @@ def test_every_key_of_the_schema_has_a_description():
                 yield f"{path}.{key}"
             yield from nameless(value, f"{path}.{key}")
 
-    schema = read_schema(SCHEMA)
+    schema = read_schema()
     assert not list(nameless(schema, "")) + list(nameless(schema["$defs"]["trapezoid"], "trapezoid"))
 
 
@@ -103,7 +113,7 @@ def test_a_key_that_is_an_option_bears_its_name():
 
 
 def test_a_limit_in_the_schema_comes_before_those_of_the_option():
-    rules = read_schema(SCHEMA)["properties"]["test"]["properties"]
+    rules = read_schema()["properties"]["test"]["properties"]
     assert rules["cycles"].items() >= {"type": "integer", "minimum": 2, "default": 5}.items()
     assert rules["amplitude_m"].items() >= {"type": "number", "minimum": 1e-15, "maximum": 1}.items()
 
@@ -272,6 +282,6 @@ def test_a_study_is_planned_without_numpy(study):
         "import sys, yaml; sys.modules['numpy'] = None\n"
         "from asphalt_nscd.study.configuration import complete_study\n"
         f"config = yaml.safe_load(open('config/{study}.yaml'))\n"
-        "complete_study(config, 'it', 'workflow/schemas/study.schema.yaml')\n"
+        "complete_study(config, 'it')\n"
     )
     subprocess.run([sys.executable, "-c", script], check=True, cwd=ROOT)

@@ -14,7 +14,6 @@ from asphalt_nscd.study.configuration import complete_study
 from asphalt_nscd.study.preflight import require_feasible
 
 ROOT = Path(__file__).parents[2]
-SCHEMA = ROOT / "workflow/schemas/study.schema.yaml"
 PEAKS = "specimen,temperature_C,frequency_Hz,F0_N,z0_m,psi_deg\n"
 STEPS = {"seed": 1, "temperature_C": 20, "frequency_Hz": 10, "tolerances": [1e-4]}
 
@@ -29,7 +28,7 @@ def check(tmp_path, monkeypatch):
     def run(study="smoke", **changes):
         config = yaml.safe_load((ROOT / f"config/{study}.yaml").read_text())
         config = {key: value for key, value in (config | changes).items() if value is not None}
-        require_feasible(complete_study(config, "my.yaml", SCHEMA), "my.yaml")
+        require_feasible(complete_study(config, "my.yaml"), "my.yaml")
 
     run.geometry = yaml.safe_load((ROOT / "config/smoke.yaml").read_text())["geometry"]
     run.specimens = yaml.safe_load((ROOT / "config/smoke.yaml").read_text())["specimens"]

@@ -18,7 +18,7 @@ from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.study.configuration import complete_study
 from asphalt_nscd.study.preflight import require_feasible
 from asphalt_nscd.table_import.duration import duration
-from asphalt_nscd.table_import.write import SCHEMA, StudyOptions, new_study
+from asphalt_nscd.table_import.write import StudyOptions, new_study
 
 LAW = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)
 PRISM = {"b_mm": 50, "B_mm": 50, "e_mm": 50, "h_mm": 300, "mass_kg": 1.8, "mobile_mass_kg": 0.2}
@@ -52,7 +52,7 @@ def made(name="mine", tests=None, **options):
 
 
 def accepted(config):
-    study = complete_study(yaml.safe_load(config.read_text(encoding="utf-8")), str(config), SCHEMA)
+    study = complete_study(yaml.safe_load(config.read_text(encoding="utf-8")), str(config))
     require_feasible(study, str(config))
     return study
 
@@ -144,7 +144,19 @@ def test_what_cannot_be_meant_is_refused_and_leaves_nothing(folder, tests, names
     assert [path.name for path in folder.iterdir()] == ["t.csv"]
 
 
-BAD_NAMES = ["../mine", "1st", "my study", "", "published", "verification", "mine\n", "null", "on"]
+BAD_NAMES = [
+    "../mine",
+    "1st",
+    "my study",
+    "",
+    "published",
+    "verification",
+    "mine\n",
+    "null",
+    "on",
+    "con",
+    "Lpt1",
+]
 
 
 @pytest.mark.parametrize("name", BAD_NAMES)

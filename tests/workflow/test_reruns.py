@@ -1,114 +1,273 @@
-"""What runs again after a change, by dry runs over a study whose files are all there."""
+"""Which change reruns exactly which jobs: dry runs on finished studies, of the paper and of a table of one's own."""
 
 from __future__ import annotations
 
 import os
 import re
 import shutil
+from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 import yaml
-from workspace import ROOT, Plan, Workspace
+from workspace import ROOT, Workspace
 
 pytestmark = pytest.mark.slow
 
-TABLE = "data/paper/table3_burgers.csv"
+COSTS = "results/published/benchmark"  # which the audit reads
+PARTS = (
+    "Snakefile",
+    "benchmarks",
+    COSTS,
+    "config",
+    "data",
+    "profiles",
+    "src",
+    "studies",
+    "trials",
+    "workflow",
+)
+COMPUTES = re.compile(
+    "compile|deposit|import|trim|condense|simulate|fit$|.*_law$|reconstruct$|reduce|diagnose|name_|draw_|extend$"
+)
+DRAWN = "..."  # and the tables, figures and pages that follow
 
 
-class Finished(Workspace):
-    """A study as if it had been run: files without content, and Snakemake's records of them."""
+class Change(NamedTuple):
+    """What is changed: `old` in a file becomes `new`; without `old` it is added at the end."""
 
-    @property
-    def environment(self) -> dict[str, str]:
-        return super().environment | {"PYTHONPATH": str(self.folder / "src")}
+    file: str
+    old: str
+    new: str
 
-    def finish(self) -> None:
-        shutil.copytree(ROOT / "src", self.folder / "src", ignore=shutil.ignore_patterns("__pycache__"))
+
+class Clone(Workspace):
+    """A copy of the repository with a study as if it had been run: files without content, and Snakemake's records."""
+
+    def __init__(self, folder: Path, study: dict) -> None:
+        self.folder = folder
+        for name in PARTS:
+            copy = shutil.copytree if (ROOT / name).is_dir() else shutil.copy
+            ignored = {"ignore": shutil.ignore_patterns("__pycache__")} if (ROOT / name).is_dir() else {}
+            copy(ROOT / name, folder / name, **ignored)
+        rows = [
+            f"A,{t},{f},{12000 - 250 * t + 100 * f},20"
+            for t in (0, 10, 20, 30, 40)
+            for f in (1, 3, 10, 25, 30)
+        ]
+        (folder / "mine.csv").write_text(
+            "\n".join(["specimen,temperature_C,frequency_Hz,E_MPa,phase_deg", *rows])
+        )
+        (folder / "study.yaml").write_text(yaml.safe_dump(study))
         made = re.findall(r"^(results/\S+)\t", self.run("--summary").stdout, re.MULTILINE)
         assert made
-        for name in made:
-            path = self.folder / name
-            path.parent.mkdir(parents=True, exist_ok=True)
+        for path in map(folder.joinpath, made):
+            folder = path if path.name == "packings" else path.parent
+            folder.mkdir(parents=True, exist_ok=True)
             path.touch()
-        done = self.run("--touch", "--cores", "1")
-        assert done.returncode == 0, done.stderr
+        done = self.run("--touch", "--forceall", "--cores", "1")
+        assert done.returncode == 0, done.stderr[-3000:]
 
-    def edit(self, name: str, old: str, new: str) -> None:
-        path = self.folder / name
-        text = path.read_text()
-        assert old in text
-        path.write_text(text.replace(old, new, 1))
+    def command(self, *arguments: str) -> list[str]:
+        return ["python", "-m", "snakemake", *arguments, "--configfile", "study.yaml"]
+
+    def after(self, *changes: Change) -> dict[str, int]:
+        """Jobs that changes rerun; these are then taken back, and so are the stamps that a plan writes."""
+        stamps = {*self.folder.glob(".snakemake/*/*")}
+        paths = stamps | {self.folder / change.file for change in changes}
+        kept = [(path, path.read_bytes(), path.stat()) for path in paths if path.is_file()]
+        try:
+            for change in changes:
+                path = self.folder / change.file
+                text = path.read_text()
+                assert change.old in text, change
+                path.write_text(text.replace(change.old, change.new, 1) if change.old else text + change.new)
+            return {rule: count for rule, count in self.planned().items() if rule != "all"}
+        finally:
+            for path in {*self.folder.glob(".snakemake/*/*")} - stamps:
+                path.unlink()
+            for path, content, times in kept:
+                path.write_bytes(content)
+                os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
-def remade(plan: Plan) -> list[str]:
-    """Files of the campaign that would be made again."""
-    return re.findall(r"--output (results/paper/tests/\S+)", "\n".join(plan.lines))
+def meaning(module: str) -> Change:
+    """A statement more in a module of the package."""
+    return Change(f"src/asphalt_nscd/{module}.py", "", "\nMORE = 1\n")
+
+
+def key(old: str, new: str) -> Change:
+    return Change("study.yaml", old, new)
+
+
+TABLE3 = "data/paper/table3_burgers.csv"
+AFTER_DIAGNOSIS = "diagnose 1 name_causes 1 extend 4 simulate_extended 24 ..."
+OWN_AFTER = "diagnose 1 name_causes 1 extend 1 simulate_extended 4 ..."
+CAMPAIGN = "simulate 16 simulate_facets 4 simulate_scaled 2 " + OWN_AFTER
+SPECIMEN = "trim 1 trim_facets 1 condense 1 condense_facets 1 reduced_specimen 1 "
+WHOLE = """simulate 120 simulate_facets 24 simulate_scaled 32 simulate_step 4 simulate_part 1 simulate_sweeps 6
+    simulate_pascal 1 simulate_blocked 1 diagnose_family 12 """
+ALL_BONDED = """condense 7 condense_facets 6 condense_part 1 condense_likely 1 reduced_specimen 4 simulate_packed 3
+    simulate_packed_facets 3 simulate_likely 6 """
+# What a change reruns that computes something; with ... the figures and tables that follow, else nothing more.
+PAPER = {
+    "nothing": ([], ""),
+    "a comment in a rule and in a kernel, a number written otherwise": (
+        [
+            Change("workflow/rules/fit.smk", "", "\n# more\n"),
+            Change(
+                "src/asphalt_nscd/nscd/bonds/law.py", "import numpy as np\n", "import numpy as np  # arrays\n"
+            ),
+            key("friction: 0.2\n", "friction: 0.20\n"),
+        ],
+        "",
+    ),
+    "the friction of pouring: no looser sample": (
+        [key("friction: 0.2\n", "friction: 0.21\n")],
+        """deposit 4 trim 4 trim_facets 4 trim_part 1 condense 5 condense_facets 4 condense_part 1 reduced_specimen 4
+        simulate_packed 1 simulate_packed_facets 1 """
+        + WHOLE
+        + AFTER_DIAGNOSIS,
+    ),
+    "the friction of bonds: no pouring": (
+        [key("friction: 0.7", "friction: 0.8")],
+        ALL_BONDED + WHOLE + AFTER_DIAGNOSIS,
+    ),
+    "a row of Table 3: the tests of its temperature": (
+        [Change(TABLE3, "15,2.43e7", "15,2.44e7")],
+        """published_law 1 pascal_law 1 reconstruct 1 reduce 1 fit 6 simulate 20 simulate_facets 4 simulate_likely 1
+        simulate_packed 3 simulate_packed_facets 3 simulate_part 1 simulate_step 4 simulate_sweeps 6 simulate_pascal 1
+        simulate_blocked 1 """
+        + AFTER_DIAGNOSIS,
+    ),
+    "one frequency more: no test of another, where nothing is drawn anew": (
+        [key("- 40\ngeometry", "- 40\n- 50\ngeometry")],
+        """simulate 24 simulate_facets_1 24 simulate_scaled_1 32 simulate_likely_1 6 simulate_pascal_1 1
+        simulate_blocked_1 1 reconstruct 1 reduce 1 fit 6 draw_family 3 reduce_family 3 diagnose_family 3
+        simulate_extended_1 24 """
+        + AFTER_DIAGNOSIS,
+    ),
+    "a factor more": ([key("  - 1.5\n", "  - 1.5\n  - 2.0\n")], "scale_law 4 simulate_scaled 16 ..."),
+    "a line of a table beside": (
+        [Change("data/ncat/N2-1_RH.csv", "\n", "\n# more\n")],
+        "reduce_family 1 diagnose_family 1 ...",
+    ),
+    "a kernel of contacts": (
+        [meaning("nscd/contacts/coulomb")],
+        "compile 2 deposit 4 deposit_loose 2 trim 6 trim_facets 6 trim_likely 1 trim_part 1 "
+        + ALL_BONDED
+        + WHOLE
+        + AFTER_DIAGNOSIS,
+    ),
+    "the law of bonds": (
+        [meaning("nscd/bonds/law")],
+        "compile 1 " + ALL_BONDED + WHOLE + AFTER_DIAGNOSIS,
+    ),
+    "a sentence: no simulation": (
+        [meaning("diagnosis/words/sentences")],
+        "diagnose 1 diagnose_family 12 ...",
+    ),
+    "a family of laws": (
+        [Change("trials/drawn/laws.py", "", "\nMORE = 1\n")],
+        "draw_family 3 reduce_family 3 diagnose_family 3 ...",
+    ),
+    "the likeliest friction": (
+        [key("likeliest_friction: 0.3", "likeliest_friction: 0.5")],
+        "trim_likely 1 condense_likely 1 simulate_likely 6 ...",
+    ),
+    "the seed of what is reconstructed": (
+        [key("seed: 2020", "seed: 2021")],
+        "reconstruct 1 reduce 1 fit 6 draw_family 3 reduce_family 3 diagnose_family 3 " + AFTER_DIAGNOSIS,
+    ),
+    "a caption": ([Change("workflow/report/fig09.rst", "", "\nMore.\n")], "report 1 workflow_report 1"),
+}
+# Of a table of one's own, whose fitted laws are simulated: one sample, four temperatures, four frequencies.
+OWN = {
+    "nothing": ([], ""),
+    "one |E*|: the law and the tests of its temperature": (
+        [Change("mine.csv", "A,10,1,9600", "A,10,1,9700")],
+        "reduce 1 fit 1 simulate 4 simulate_facets 1 " + OWN_AFTER,
+    ),
+    "a temperature of the table that is not simulated": (
+        [Change("mine.csv", "A,40,1,2100", "A,40,1,2200")],
+        "reduce 1 " + OWN_AFTER,
+    ),
+    "one frequency more: no test of another": (
+        [key("- 25\ngeometry", "- 25\n- 30\ngeometry")],
+        "simulate 4 simulate_facets_1 4 simulate_scaled_1 2 simulate_extended_1 4 " + OWN_AFTER,
+    ),
+    "one temperature more": (
+        [key("- 30\ntest", "- 30\n- 40\ntest")],
+        "fit 1 simulate 4 simulate_facets 1 diagnose 1 name_causes 1 extend 1 simulate_extended 5 ...",
+    ),
+    "one sample more": (
+        [key("  - 1\nstudy", "  - 1\n  - 2\nstudy")],
+        "deposit 1 "
+        + SPECIMEN
+        + "simulate 16 simulate_facets 4 simulate_scaled 2 diagnose 1 name_causes 1 extend 2 simulate_extended 8 ...",
+    ),
+    "the amplitude": ([key("1.0e-05", "1.1e-05")], CAMPAIGN),
+    "how tables are reduced": ([meaning("measurements/reduction")], "reduce 1 fit 4 scale_law 2 " + CAMPAIGN),
+    "the specimen": (
+        [key("mass_kg: 0.021", "mass_kg: 0.022")],
+        "reduce 1 fit 4 scale_law 2 " + SPECIMEN + CAMPAIGN,
+    ),
+    "the vibration": ([key("vibration_s: 0.1", "vibration_s: 0.2")], "deposit 1 " + SPECIMEN + CAMPAIGN),
+    "a sieve": ([Change("config/smoke_counts.csv", "", "6.3,1\n")], "deposit 1 " + SPECIMEN + CAMPAIGN),
+    "the draws of a diagnosis": ([key("geometry:", "diagnosis:\n  seed: 3\ngeometry:")], OWN_AFTER),
+    "a factor more": ([key("  - 0.5\n", "  - 0.5\n  - 2.0\n")], "scale_law 2 simulate_scaled 2 ..."),
+    "a sentence: no simulation": ([meaning("diagnosis/words/sentences")], "diagnose 1 ..."),
+    "an advice: no simulation": ([meaning("diagnosis/next_tests/sweeps")], "diagnose 1 ..."),
+    "a cause": ([meaning("diagnosis/causes/damage")], OWN_AFTER),
+}
 
 
 @pytest.fixture(scope="module")
 def paper(tmp_path_factory):
-    study = Finished(tmp_path_factory.mktemp("paper"))
-    content = yaml.safe_load((ROOT / "config/paper.yaml").read_text())
-    (study.folder / "study.yaml").write_text(yaml.safe_dump(content))
-    study.finish()
-    return study
+    return Clone(tmp_path_factory.mktemp("paper"), yaml.safe_load((ROOT / "config/paper.yaml").read_text()))
 
 
-@pytest.fixture
-def restored(paper):
-    """The study, put back after the test; the stamps of what a plan found too, else the next plan finds it changed."""
-    paths = [paper.folder / name for name in (TABLE, "src/asphalt_nscd/nscd/bonds/law.py")]
-    paths += [path for folder in ("code", "rows") for path in paper.folder.glob(f".snakemake/{folder}/*")]
-    kept = [(path, path.read_bytes(), path.stat()) for path in paths]
-    yield paper
-    for path, content, times in kept:
-        path.write_bytes(content)
-        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
-    for path in paper.folder.glob("results/**/*.gone"):
-        path.rename(path.with_suffix(""))
+@pytest.fixture(scope="module")
+def own(tmp_path_factory):
+    study = yaml.safe_load((ROOT / "config/smoke.yaml").read_text())
+    for name in ("published", "audit", "tables_beside", "time_step_study", "packing_study"):
+        del study[name]
+    study |= {"study": "own", "measurements": {"table": "mine.csv"}, "laws": {"simulate": "fitted"}}
+    study |= {"temperatures_C": [0, 10, 20, 30], "frequencies_Hz": [1, 3, 10, 25]}
+    return Clone(tmp_path_factory.mktemp("own"), study)
 
 
-def test_one_temperature_of_table_3_is_its_twenty_tests(restored):
-    restored.edit(TABLE, "15,2.43e7", "15,2.44e7")
-    plan = restored.plan()
-    again, jobs = remade(plan), plan.jobs
-    assert len(again) == 20 and all("/T15/" in path for path in again)
-    # by way of the measurements, which are reconstructed from the whole table, and the diagnosis
-    assert jobs["published_law"] == 1 and jobs["reconstruct"] == jobs["diagnose"] == jobs["fig09"] == 1
-    assert not {"deposit", "trim", "condense", "simulate_scaled"} & set(jobs)
-    assert restored.planned("results/paper/sensitivity.csv") == {}
+def require(jobs: dict[str, int], expected: str) -> None:
+    words = [word for word in expected.split() if word != DRAWN]
+    wanted = dict(zip(words[::2], map(int, words[1::2]), strict=True))
+    computing = {rule: count for rule, count in jobs.items() if COMPUTES.match(rule)}
+    assert (computing if DRAWN in expected else jobs) == wanted
 
 
-def test_a_row_of_a_temperature_that_the_study_does_not_have_reruns_no_test(restored):
-    path = restored.folder / TABLE
-    path.write_text(path.read_text() + "40,1e7,1e6,1e7,1e5\n")
-    assert restored.planned("results/paper/simulations.csv") == {}
+@pytest.mark.parametrize("change", PAPER)
+def test_of_the_paper(paper, change):
+    changes, expected = PAPER[change]
+    require(paper.after(*changes), expected)
 
 
-def test_one_missing_result_is_one_test(restored):
-    path = restored.folder / "results/paper/tests/s2/T0/f10.h5"
-    path.rename(path.with_suffix(".h5.gone"))
-    assert remade(restored.plan()) == ["results/paper/tests/s2/T0/f10.h5"]
+@pytest.mark.parametrize("change", OWN)
+def test_of_a_table_of_one_s_own(own, change):
+    changes, expected = OWN[change]
+    require(own.after(*changes), expected)
 
 
-def test_a_comment_reruns_nothing_and_another_sign_all_that_it_concerns(restored):
-    law = "src/asphalt_nscd/nscd/bonds/law.py"
-    restored.edit(law, '"""The bond law:', '"""The law of all bonds:')
-    restored.edit(law, "import numpy as np\n", "import numpy as np  # arrays\n\n# of bonds\n")
-    os.utime(restored.folder / law)
-    assert restored.planned() == {}
-    restored.edit(law, "self.spring_memory * sigma - ", "self.spring_memory * sigma + ")
-    jobs = restored.planned()
-    assert jobs["simulate"] == 120 and jobs["simulate_facets"] == jobs["simulate_extended"] == 24
-    assert not {"deposit", "reconstruct", "fit"} & set(jobs)
+def test_a_row_that_the_study_does_not_have_and_a_missing_result(paper):
+    assert paper.after(Change(TABLE3, "", "40,1e7,1e6,1e7,1e5\n")).get("simulate") is None
+    path = paper.folder / "results/paper/tests/s2/T0/f10.h5"
+    path.unlink()
+    jobs = paper.after()
+    path.touch()
+    assert jobs["simulate"] == 1 and "published_law" not in jobs
 
 
-def test_each_stage_is_a_target(restored):
-    stages = ("laws", "deposits", "specimens", "tests", "tables", "figures", "diagnosis", "extended", "audit")
-    for name in stages:
-        assert f"`{name}`" in (ROOT / "docs/workflow.md").read_text()
-    # Snakemake makes what is asked for by the name of its own rule
-    assert restored.planned(*stages) in ({}, {"audit": 1, "tables": 1})
-    jobs = restored.planned("deposits", "tests", "--forceall")
-    assert (jobs["deposits"], jobs["deposit"], jobs["tests"], jobs["simulate"]) == (1, 4, 1, 120)
-    assert not {"diagnose", "audit", "report"} & set(jobs)
+def test_each_stage_is_a_target(own):
+    stages = ("laws", "deposits", "specimens", "tests", "tables", "figures", "diagnosis", "extended")
+    assert all(f"`{name}`" in (ROOT / "docs/workflow.md").read_text() for name in stages)
+    jobs = own.planned("deposits", "tests", "--forceall")
+    assert (jobs["deposits"], jobs["deposit"], jobs["tests"], jobs["simulate"]) == (1, 1, 1, 16)
+    assert not {"diagnose", "report"} & set(jobs)

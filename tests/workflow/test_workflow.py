@@ -213,7 +213,10 @@ def test_rungs_above_the_paper_s_are_simulated_with_facets_and_nothing_is_divide
     assert "--area facets" in line and "results/smoke/deposits/s1.h5" in line
     (line,) = plan.commands("extend")
     assert "--specimen" not in line
-    (line,) = plan.commands("diagnose results/smoke/measured.csv")
+    line, again = plan.commands(
+        "diagnose results/smoke/measured.csv"
+    )  # for its words, and for what is simulated
+    assert line.rpartition(" --output ")[0] == again.rpartition(" --output ")[0]
     assert "--facets results/smoke/facets.csv" in line
 
 

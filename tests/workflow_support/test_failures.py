@@ -20,6 +20,7 @@ Error in rule reduce:
     [
         ("pouring: 50%\rpouring: 51%\nerror: m.csv: row 3: no.\n", "error: m.csv: row 3: no."),
         ("Traceback (most recent call last):\n  File x\nValueError: why\n", "ValueError: why"),
+        ("Building DAG\nPackage pygments must be installed.\n", "error: Package pygments must be installed."),
         ("pouring: 50%|#####     |\rpouring: 51%|#####     |", KILLED),
         ("", KILLED),
         (None, KILLED),

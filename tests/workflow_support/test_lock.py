@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import errno
 import subprocess
 import sys
 
@@ -55,3 +56,13 @@ def test_locks_of_a_living_process_stay_and_those_of_a_killed_one_go(directory, 
 
 def test_directory_is_made(tmp_path):
     assert lock.release_stale_locks(tmp_path / ".snakemake") is True
+
+
+@pytest.mark.parametrize("number", [errno.ENOSYS, errno.ENOLCK, errno.EOPNOTSUPP])
+def test_a_file_system_without_locks_leaves_them_alone(directory, monkeypatch, number):
+    def flock(*_):
+        raise OSError(number, "no locks")
+
+    monkeypatch.setattr(lock.fcntl, "flock", flock)
+    assert lock.release_stale_locks(directory) is None
+    assert (directory / "locks/0.output.lock").exists()

@@ -35,7 +35,6 @@ from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.spheres import read_grading
 
 ROOT = Path(__file__).parents[2]
-SCHEMA = ROOT / "workflow/schemas/study.schema.yaml"
 KEYS = "specimen,temperature_C,frequency_Hz"
 MODULI = f"{KEYS},origin,E_MPa,phase_deg\n1,0,1,measured,9000,20\n1,0,10,measured,12000,16\n2,20,10,synthetic,4000,30\n"
 PEAKS = f"{KEYS},F0_N,z0_m,psi_deg\n1,0,3,60,6.3e-5,20\n1,0,10,80,6.3e-5,16\n"
@@ -79,7 +78,7 @@ def _study(path: Path) -> None:
     except (yaml.YAMLError, ValueError):  # Snakemake's own message
         return
     if isinstance(config, dict):
-        complete_study(config, str(path), SCHEMA)
+        complete_study(config, str(path))
 
 
 def _written(write: Callable[[Path], object]) -> bytes:

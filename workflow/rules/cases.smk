@@ -61,17 +61,22 @@ class Tests(NamedTuple):
 
     folder: str
     message: str
-    place: str = "{sample}/T{temperature}"  # of a job: all frequencies in one, which starts once
+    place: str = "{sample}/T{temperature}"  # of a job: frequencies asked for together in one, which starts once
     model: str = model()
-    law: str | list = LAW
+    law: str = LAW
     source: str = LAWS
     test: str = TEST
     rig: str | list = []
     priority: int = 0
 
     @property
+    def own_laws(self):
+        """A law for each frequency."""
+        return "{frequency}" in self.law and self.together
+
+    @property
     def together(self):
-        """All frequencies in one job."""
+        """Several frequencies in one job."""
         return "{frequency}" not in self.place
 
     @property
@@ -116,7 +121,7 @@ if COMMON_LAW:  # what the diagnosis named, beyond the paper
         "extended/tests",
         "Test sample {wildcards.sample} extended, at {wildcards.temperature} degC",
         model=model(FACETS),
-        law=expand(EXTENDED_LAWS, frequency=FREQUENCIES, allow_missing=True),
+        law=EXTENDED_LAWS,
         source="diagnosis",
         rig="<results>/extended/rigs/{sample}.json",
     )

@@ -25,7 +25,6 @@ FILES = {
     "residuals": DIAGNOSED[1:2],
     "specimen": [f"<results>/specimens/{FIRST}.h5"],
     "specimens": expand("<results>/specimens/{sample}.h5", sample=SAMPLES),
-    "study": ["<results>/study.json"],
 }
 
 
@@ -40,9 +39,13 @@ def waveform(temperature, frequency):
 
 
 FASTEST, SLOWEST = (which(FREQUENCIES, key=float) for which in (max, min))
+SHAPE = {
+    "specimens": {"geometry": STUDY["specimens"]["geometry"]},
+    "test": {"amplitude_m": STUDY["test"]["amplitude_m"]},
+}
 ELEMENT = {
     "laws": expand(LAW, temperature=label(AUDIT["temperature_C"]) if AUDIT else TYPICAL),
-    "study": FILES["study"],
+    "study": part_of_study("bonds", specimens={"bonds": BONDS}),
 }
 
 # Name: part of the report, {kind of data: files}.
@@ -51,7 +54,7 @@ FIGURES = {
     "fig_black": ("0 Diagnosis", data("diagnosis residuals")),
     "fig_master": ("0 Diagnosis", data("diagnosis residuals")),
     "fig_limits": ("0 Diagnosis", data("diagnosis")),
-    "fig01": ("1 Measurements and laws", data("study")),
+    "fig01": ("1 Measurements and laws", {"study": part_of_study("shape", **SHAPE)}),
     "fig07": ("3 Simulated tests", {"test": waveform(TYPICAL, FASTEST)}),
     "fig08": ("3 Simulated tests", {"test": waveform(SOFTER, SLOWEST)} | data("specimen")),
     "fig09": ("3 Simulated tests", data("simulations measured laws")),
@@ -85,7 +88,7 @@ if POURED:
     TABLES["preparation"] = data("deposits")
 if PRINTED:
     FILES |= {"grading": [PRINTED["grading_table"]], "counts": [PRINTED["counts_table"]]}
-    FIGURES["fig02"] = ("2 Preparation", data("study"))
+    FIGURES["fig02"] = ("2 Preparation", {"study": ELEMENT["study"]})
     FIGURES["fig03"] = ("1 Measurements and laws", ELEMENT | data("specimen"))
     FIGURES["fig04"] = ("1 Measurements and laws", ELEMENT)
     PAGES["table1"] = "1 Measurements and laws"
@@ -138,7 +141,7 @@ if AUDIT and SENSITIVITY and PACKING and STEPPING and PRINTED:
         "laws": PAPER_LAWS[0],
         **{kind: files[0] for kind, files in data(alone).items()},
         **data("fitted measured facets deposits specimens"),
-        "stopped": STOPPED,
+        "costs": shipped("results/published/benchmark/benchmark.csv"),
         "waveform": waveform(TYPICAL, FASTEST)[0],
         "profile": waveform(SOFTER, SLOWEST)[0],
     }
@@ -195,6 +198,7 @@ KEPT += [
 if COMMON_LAW:
     KEPT += [
         COMMON_LAW,
+        NAMED,
         expand(EXTENDED_LAWS, sample=SAMPLES, temperature=TEMPERATURES, frequency=FREQUENCIES),
         expand("<results>/extended/rigs/{sample}.json", sample=SAMPLES),
     ]

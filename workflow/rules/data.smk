@@ -3,13 +3,15 @@
 MEASUREMENTS = STUDY["measurements"].get("table", "<results>/measurements.csv")
 
 
-def records(table):
-    """Sampled records that a table of measurements names, as far as they are there."""
+def records(table, temperature=None):
+    """Sampled records that a table of measurements names, at all temperatures or one, as far as they are there."""
     if not Path(table).is_file():
         return []
     # what cannot be decoded is refused, with a sentence, by the rule that reads the table
     with open(table, encoding="utf-8-sig", errors="replace", newline="") as file:
-        named = (row.get("record") for row in csv.DictReader(file))
+        rows = csv.DictReader(file)
+        wanted = (row for row in rows if temperature is None or is_number(row.get("temperature_C") or "", temperature))
+        named = [row.get("record") for row in wanted]
         return [str(path) for name in named if name and (path := Path(table).parent / name).is_file()]
 
 
@@ -39,11 +41,15 @@ rule reconstruct:
         "asphalt-nscd reconstruct {input.table:q} --geometry {params.geometry:q} --frequencies-hz {params.frequencies} {params.amplitude} {params.scatter} --law-output {output.law} --output {output.measurements} > {log} 2>&1"
 
 
+REDUCED_BY = {"geometry": text(STUDY["geometry"]), "window": options(STUDY.get("reduction", {}))}
+
+
 rule reduce:
     """Section 2: forces and displacements at the head as complex moduli."""
     input:
         measurements=MEASUREMENTS,
         records=records(MEASUREMENTS),
+        shapes=SHAPES,
         code=code("reduce"),
     output:
         "<results>/measured.csv",
@@ -55,8 +61,7 @@ rule reduce:
     conda:
         ENVIRONMENT
     params:
-        geometry=text(STUDY["geometry"]),
-        window=options(STUDY.get("reduction", {})),
+        **REDUCED_BY,
     message:
         "Reduce the measurements to complex moduli, Eqs. (1)-(5)"
     shell:

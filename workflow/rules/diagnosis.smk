@@ -24,13 +24,19 @@ rule reduced_specimen:
         "asphalt-nscd reduced-specimen {input.model} --output {output} > {log} 2>&1"
 
 
+COMPARED = {
+    "measured": "<results>/measured.csv",
+    "simulations": "<results>/simulations.csv",
+    "facets": FACET_SIMULATIONS,
+    "specimen": f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",
+    "shapes": SHAPES,
+}
+
+
 rule diagnose:
     """What the simulation gets wrong: residuals, ladder of causes, verdict; the log holds the ladder."""
     input:
-        measured="<results>/measured.csv",
-        simulations="<results>/simulations.csv",
-        facets=FACET_SIMULATIONS,
-        specimen=f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",
+        **COMPARED,
         code=code("diagnose", *modules_of("diagnosis.causes")),
     output:
         DIAGNOSED,

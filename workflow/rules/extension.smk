@@ -1,14 +1,33 @@
 # Beyond the paper: the tests run again with what the diagnosis named in the simulation.
 from itertools import product
 
+# What only says in words what was found, or what to test next.
+SAID = ("diagnosis.words", "diagnosis.next_tests", "diagnosis.record.instructions", "diagnosis.record.trust")
+NAMED = ["<results>/extended/diagnosis/diagnosis.json", "<results>/extended/diagnosis/law.json"]
+
+
+use rule diagnose as name_causes with:
+    """The same without its words: a sentence or an advice that changes must not simulate anything anew."""
+    input:
+        **COMPARED,
+        code=code("diagnose", *modules_of("diagnosis.causes"), without=SAID),
+    output:
+        NAMED,
+    log:
+        "<results>/logs/name_causes.log",
+    benchmark:
+        "<results>/benchmarks/name_causes.tsv"
+    message:
+        "Name the causes that the extended simulation holds"
+
 
 rule extend:
     """Laws and rig of the extended tests: one continuous law as Kelvin chains, causes at the head as a rig."""
     input:
-        diagnosis=DIAGNOSED[0],
-        law=COMMON_LAW,
+        diagnosis=NAMED[0],
+        law=NAMED[1],
         measured="<results>/measured.csv",
-        code=code("extend", *modules_of("diagnosis.causes")),
+        code=code("extend", *modules_of("diagnosis.causes"), without=SAID),
     output:
         laws=expand(EXTENDED_LAWS, temperature=TEMPERATURES, frequency=FREQUENCIES, allow_missing=True),
         rig="<results>/extended/rigs/{sample}.json",

@@ -1,10 +1,17 @@
 # Section 4.1: one Burgers law for each temperature, Eqs. (27)-(29) and Table 3.
 
 
+# Of a table of one's own the law of a temperature depends on the rows of this temperature alone, and on how they are reduced.
+OWN_TABLE = "table" in STUDY["measurements"]
+
+
 rule fit:
     """Section 4.1: the Burgers law of a temperature, by least squares on the complex modulus."""
     input:
-        measured="<results>/measured.csv",
+        measured=[] if OWN_TABLE else "<results>/measured.csv",
+        row=row_at(MEASUREMENTS if OWN_TABLE else None),
+        records=lambda wildcards: records(MEASUREMENTS, float(wildcards.temperature)) if OWN_TABLE else [],
+        shapes=SHAPES,
         code=code("fit"),
     output:
         "<results>/laws/fitted/T{temperature}.json",
@@ -15,10 +22,13 @@ rule fit:
     priority: 20  # before anything is poured: the measurements may yet be refused
     conda:
         ENVIRONMENT
+    params:
+        measured=lambda wildcards, input: MEASUREMENTS if OWN_TABLE else input.measured,
+        reduced=f"--geometry {shlex.quote(REDUCED_BY['geometry'])} {REDUCED_BY['window']}" if OWN_TABLE else "",
     message:
         "Fit a Burgers law to the measurements at {wildcards.temperature} degC, Eqs. (27)-(29)"
     shell:
-        "asphalt-nscd fit {input.measured} --temperature-c {wildcards.temperature} --output {output} > {log} 2>&1"
+        "asphalt-nscd fit {params.measured:q} {params.reduced} --temperature-c {wildcards.temperature} --output {output} > {log} 2>&1"
 
 
 rule published_law:

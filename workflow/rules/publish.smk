@@ -2,6 +2,9 @@
 #   snakemake --cores 1 publish
 
 
+import glob
+
+
 class Published(NamedTuple):
     """What is committed of a folder of results."""
 
@@ -9,6 +12,20 @@ class Published(NamedTuple):
     files: list
     blocks: dict = {}  # of documents: the tables that fill them
     documents: list = ["docs"]
+    modules: list = []  # behind what a program makes that is no rule
+    sources: str = ""  # its files, as a pattern
+
+
+def rests_on(input, told):
+    """Options of `publish`: modules and files behind all jobs that its inputs come from, or behind a program."""
+    dag = workflow.dag
+    last = [job for job in dag.jobs if not set(input.files).isdisjoint(job.output)]
+    read = {str(path) for job in dag.bfs(dag.dependencies, *last) for path in job.input}
+    read -= {str(path) for job in dag.jobs for path in job.output}
+    modules = {*told.modules, *(module for path in read for module in MODULES.get(path, ()))}
+    files = {os.path.relpath(path) for path in read if not path.startswith(".snakemake")}
+    files |= {*glob.glob(told.sources), *(map(os.path.relpath, [*workflow.configfiles, *PAPER_LAWS]) if last else [])}
+    return [*(f"--module={name}" for name in sorted(modules)), *(f"--source={name}" for name in sorted(files))]
 
 
 STUDY_TABLES = {"samples": "samples.csv", "timings": "timings.md"}
@@ -59,7 +76,7 @@ PUBLISHED = {
     ),
     "publish_benchmark": Published(
         "benchmark",
-        ["benchmark.csv", "beside.csv", "growth.csv", "provenance.json"],
+        ["benchmark.csv", "beside.csv", "growth.csv", "million.csv", "provenance.json"],
         {"benchmark": "beside.csv", "growth": "growth.csv"},
     ),
     "publish_diagnosis_times": Published("benchmark", ["diagnosis.csv"], {"diagnosis_times": "diagnosis.csv"}),
@@ -78,14 +95,40 @@ PUBLISHED = {
     "publish_rigs": Published("rigs", ["rigs.csv", "provenance.json"], {"rigs": "summary.csv"}),
     "publish_fall": Published("fall", ["falls.csv", "figures/fig_fall.png", "provenance.json"]),
     # These are of programs that are no rules: `make faults`, `make fuzz`, trials/mutants.py, trials/cluster.
-    "publish_faults": Published("faults", ["faults.csv", "provenance.json"], {"faults": "summary.csv"}),
-    "publish_fuzz": Published("fuzz", ["wild.csv", "wild_failures.csv", "provenance.json"]),
-    "publish_calls": Published("calls", ["calls.csv", "call_failures.csv", "calls_provenance.json"]),
-    "publish_mutants": Published(
-        "mutants", ["mutants.csv", "provenance.json"], {"mutants": "summary.csv"}, ["CONTRIBUTING.md"]
+    "publish_faults": Published(
+        "faults",
+        ["faults.csv", "provenance.json"],
+        {"faults": "summary.csv"},
+        modules=[*modules_of("files"), *modules_of("workflow_support")],
+        sources="trials/faults/*.py",
     ),
-    "publish_layouts": Published("layouts", ["layouts.csv", "provenance.json"], {"layouts": "summary.csv"}),
-    "publish_cluster": Published("cluster", ["cluster.csv", "provenance.json"]),
+    "publish_fuzz": Published(
+        "fuzz",
+        ["wild.csv", "wild_failures.csv", "provenance.json"],
+        modules=["cli.diagnose", *modules_of("diagnosis.causes")],
+        sources="trials/fuzz/*.py",
+    ),
+    "publish_calls": Published(
+        "calls",
+        ["calls.csv", "call_failures.csv", "calls_provenance.json"],
+        modules=modules_of("api"),
+        sources="trials/fuzz/*.py",
+    ),
+    "publish_mutants": Published(
+        "mutants",
+        ["mutants.csv", "provenance.json"],
+        {"mutants": "summary.csv"},
+        ["CONTRIBUTING.md"],
+        sources="trials/mutants.*",
+    ),
+    "publish_cluster": Published("cluster", ["cluster.csv", "provenance.json"], sources="trials/cluster/*.py"),
+    "publish_layouts": Published(
+        "layouts",
+        ["layouts.csv", "provenance.json"],
+        {"layouts": "summary.csv"},
+        modules=["cli.diagnose", "cli.new_study"],
+        sources="trials/layouts/*.py",
+    ),
 }
 
 if ATTACK:
@@ -135,8 +178,10 @@ for name, told in PUBLISHED.items():
         params:
             root=folder,
             output=f"results/published/{told.folder}",
+            noted=lambda wildcards, input, told=told: rests_on(input, told),
+            name=name,
             blocks=[f"--document {document}" for document in told.documents if blocks] + blocks,
         message:
             f"Copy what is committed of {folder}" + ", and fill its tables in documents" * bool(blocks)
         shell:
-            "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} {params.blocks}"
+            "asphalt-nscd publish {input.files} --root {params.root} --output {params.output} --name {params.name} {params.noted:q} {params.blocks}"

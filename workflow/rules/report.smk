@@ -176,10 +176,12 @@ rule provenance:
         "<results>/benchmarks/provenance.tsv"
     conda:
         ENVIRONMENT
+    params:
+        folder=lambda wildcards, output: os.path.dirname(output[0]),
     message:
         "Write down commit and versions"
     shell:
-        "asphalt-nscd provenance {input.study} --output {output} > {log} 2>&1"
+        "asphalt-nscd provenance {input.study} --folder {params.folder} --output {output} > {log} 2>&1"
 
 
 def sources_of_entries(results):

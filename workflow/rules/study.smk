@@ -1,15 +1,24 @@
 # The study, and the few helpers that rules use.
 import csv
 import re
+import shlex
 
 from asphalt_nscd.files.digests import damaged, set_aside
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.paths import require_writable
+from asphalt_nscd.files.paths import is_file, require_writable
 from asphalt_nscd.nscd.cores import cores
 from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
 from asphalt_nscd.workflow_support.clock import mistrust_future
 from asphalt_nscd.workflow_support.failures import failures
-from asphalt_nscd.workflow_support.sources import PACKAGE, modules_of, source_files, stamp, stamp_of_row
+from asphalt_nscd.workflow_support.sources import (
+    PACKAGE,
+    is_number,
+    modules_of,
+    noted,
+    source_files,
+    stamp,
+    stamp_of_row,
+)
 
 
 def check(study, source):
@@ -30,6 +39,29 @@ def check(study, source):
             sys.exit("\n".join(f"error: {set_aside(file)}" for file in found))
 
 
+def located(value):
+    """A study with the files that are not in this folder, but in the repository, by their place there."""
+    if isinstance(value, dict):
+        return {key: located(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [*map(located, value)]
+    shared = isinstance(value, str) and "/" in value and CLONE and not is_file(value) and is_file(CLONE / value)
+    return os.path.relpath(CLONE / value) if shared else value
+
+
+def asked_together(study, frequencies):
+    """Frequencies in the groups in which the study first asked for them: what is new later repeats no other test."""
+    kept = Path(".snakemake/rows", f"frequencies-{study}.json")
+    groups = json.loads(kept.read_text()) if kept.is_file() and Path("results", study).is_dir() else []
+    groups = [group for group in groups if not set(group).isdisjoint(frequencies)]
+    new = [frequency for frequency in frequencies if frequency not in sum(groups, [])]
+    groups += [new] * bool(new)
+    if workflow.is_main_process and not workflow.output_settings.dryrun:
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        kept.write_text(json.dumps(groups))
+    return groups
+
+
 # How large the attack on the diagnosis is: apart from any study. On the command line numbers come as text.
 ATTACK = {name: int(number) for name, number in config.pop("attack", {}).items()}
 
@@ -37,7 +69,7 @@ try:
     for _path in workflow.configfiles:
         refuse_repeated_keys(_path)
     _source = " + ".join(map(os.path.relpath, workflow.configfiles)) or "configuration"
-    STUDY = complete_study(config, source=_source, schema=Path(shipped("workflow/schemas/study.schema.yaml")))
+    STUDY = complete_study(located(config), _source)
     if MAIN and workflow.is_main_process:
         check(STUDY, _source)
 except InputError as error:
@@ -61,6 +93,7 @@ pathvars:
 REPORT = f"results/{STUDY['study']}/report.html"
 TEMPERATURES = [label(value) for value in STUDY["temperatures_C"]]
 FREQUENCIES = [label(value) for value in STUDY["frequencies_Hz"]]
+TOGETHER = asked_together(STUDY["study"], FREQUENCIES)
 SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
 
 # Of a sample's pouring: more than one where the study has fewer samples than cores. `workflow.cores` raises where none
@@ -68,6 +101,7 @@ SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
 THREADS = max(1, min(workflow.resource_settings.cores or 1, cores()) // len(SAMPLES))
 
 POURED = "packings" not in STUDY["specimens"]
+SHAPES = [STUDY["geometry"]] if isinstance(STUDY["geometry"], str) else []  # a table of specimens
 COUNTS = STUDY["specimens"].get("counts_table", [])  # none where packings are given
 
 
@@ -85,10 +119,20 @@ wildcard_constraints:
     tolerance=r"[\d.]+(e[+-]?\d+)?",
 
 
-def code(step, *modules):
-    """What stands for the source behind a step of the command line and modules that it picks by name."""
-    files = source_files(f"cli.{step.replace('-', '_')}", *modules)
-    return local(stamp(".snakemake/code", "-".join([step, *modules[:1]]), files).as_posix())
+def code(step, *modules, without=()):
+    """What stands for the source behind a step and modules that it picks by name; `without` folders that are no matter."""
+    wanted = (f"cli.{step.replace('-', '_')}", *modules)
+    return noted_sources("-".join([step, *modules[:1], *without[:1]]), wanted, without)
+
+
+MODULES = {}  # behind each stamp
+
+
+def noted_sources(name, modules, without=()):
+    """The stamp of modules and of what they import."""
+    path = local(stamp(".snakemake/code", name, source_files(*modules, without=without)).as_posix())
+    MODULES[str(path)] = modules
+    return path
 
 
 OF_PAPER = [
@@ -111,8 +155,7 @@ SCRIPT_OF_PAPER = str(SCRIPTS / "studies/paper/{params.script}.py")
 
 def studied(name):
     """What stands for the source behind a script of studies/: `paper.audit`."""
-    dotted = f"studies.{name}"
-    return local(stamp(".snakemake/code", dotted, source_files(dotted)).as_posix())
+    return noted_sources(f"studies.{name}", [f"studies.{name}"])
 
 
 def page_files(*names):
@@ -127,6 +170,11 @@ def row_at(table):
     return lambda wildcards: local(
         stamp_of_row(".snakemake/rows", table, "temperature_C", float(wildcards.temperature)).as_posix()
     )
+
+
+def part_of_study(name, **content):
+    """What of the study a figure shows, so that other keys do not draw it again."""
+    return [local(noted(Path(".snakemake/code", f"{STUDY['study']}-{name}.json"), json.dumps(content)).as_posix())]
 
 
 def text(value):

@@ -8,7 +8,7 @@ rule verify:
     """The core against theory; fails where a row has failed, which the log names."""
     input:
         tests=[os.path.relpath(path) for path in THEORY],
-        code=local(stamp(".snakemake/code", "theory", source_files(*TESTED)).as_posix()),
+        code=noted_sources("theory", TESTED),
     output:
         multiext("results/verification/", "verification.csv", "summary.csv", "provenance.json"),
     log:

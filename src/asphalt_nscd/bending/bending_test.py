@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -211,15 +210,12 @@ def outcome(
     if cycles < 1.0:
         raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
     require_steps(time_step, frequency)
-    began = time.process_time()
     try:
         record = run_test(model, bond_law(law), case, numerics, options)
     except ArithmeticError as error:
         raise InputError(
             f"{model.name} at {frequency:g} Hz: {error}; lower the amplitude or choose another method."
         ) from None
-    # CPU and not wall time, which depends on what runs beside the test
-    cpu = time.process_time() - began
     history = record.time, record.force, record.displacement, frequency
     # the first cycles hold the transient of the Maxwell dashpot and of the start from rest
     steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))
@@ -244,7 +240,6 @@ def outcome(
         columns |= {f"E{suffix}_MPa": float(norm) / 1e6, f"phase{suffix}_deg": float(np.degrees(phase))}
     columns |= {
         "residual": record.residual,
-        "cpu_s": cpu,
         "method": numerics.method,
         "head": model.head,
         "law_source": "",

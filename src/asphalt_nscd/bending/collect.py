@@ -25,7 +25,6 @@ COLUMNS = [
     "E_law_MPa",
     "phase_law_deg",
     "residual",
-    "cpu_s",
 ]
 SCALED = ["parameter", "factor"]
 

@@ -14,6 +14,7 @@ import signal
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from io import TextIOWrapper
 from typing import Any, NoReturn
 
 # One core or many must give identical numbers, and jobs run side by side: every step is one thread.
@@ -24,7 +25,7 @@ import click  # noqa: E402
 
 from asphalt_nscd import __version__  # noqa: E402
 from asphalt_nscd.files import digests  # noqa: E402
-from asphalt_nscd.files.errors import WITHIN_WORKFLOW, DamagedFile, InputError  # noqa: E402
+from asphalt_nscd.files.errors import CPU_TIME, WITHIN_WORKFLOW, DamagedFile, InputError  # noqa: E402
 
 _MENDS = {
     errno.ENOSPC: "free some space and run the same command again",
@@ -101,6 +102,9 @@ def _say_version(context: click.Context) -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run one step. Exit status 2 with one sentence if input or files cannot be used."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(errors="replace")  # code pages of consoles lack Greek letters
     _end(lambda: _run(sys.argv[1:] if arguments is None else arguments))
 
 
@@ -124,7 +128,11 @@ def _end(step: Callable[[], object]) -> NoReturn:
         ctypes.CDLL(None).prctl(prctl_set_death_signal, signal.SIGTERM)
     # Modules that are being loaded hold no garbage, and most steps load little else.
     gc.set_threshold(100_000, 50, 100)
-    sys.exit(_status(step))
+    status = _status(step)
+    if os.environ.get(WITHIN_WORKFLOW) and not status:
+        # For timings.csv: Snakemake looks at a job now and then, and misses what it takes after the last look.
+        click.echo(f"{CPU_TIME}{sum(os.times()[:4]):.2f} s", err=True)
+    sys.exit(status)
 
 
 def _run(arguments: list[str]) -> None:

@@ -208,6 +208,9 @@ output = click.option("--output", required=True, type=File, help="File to write.
 OUTPUT = option("File to write.")
 OUTPUTS = option("File to write, one for each.", key="output")
 GEOMETRY = option("Trapezoidal specimen.", type=Geometry())
+CYCLES = option(
+    "Number of whole cycles used, at the end of a record; else those of the last 10 s.", None, low=1
+)
 MEASURED_IN = option("Test that gave the moduli; else what the files say.", None, choices=list(TEST_TYPES))
 ONLY_MIX = option("The only mix to read of tables with a column of mixes.", None)
 SHEET = option("The only sheet of a workbook to read; else all that hold tests.", None)

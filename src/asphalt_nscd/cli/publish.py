@@ -15,11 +15,14 @@ def command(
     documents: tuple[Path, ...] = option(
         "Markdown file, or folder of them, whose blocks are filled; repeatable.", (), key="document"
     ),
+    name: str = option("Under which it is noted what they rest on.", ""),
+    modules: tuple[str, ...] = option("A module that they rest on; repeatable.", (), key="module"),
+    sources: tuple[str, ...] = option("Another file that they rest on; repeatable.", (), key="source"),
     block: _data.Pairs = option("name=table for a block; repeatable.", (), type=Pair("kind=path")),
 ) -> None:
     """Copy results that will be committed, with checksums, and fill their tables into documents."""
-    from asphalt_nscd.reporting.publish import fill_blocks, publish
+    from asphalt_nscd.reporting.publish import Sources, fill_blocks, publish
 
     # Documents first: a block that is missing is refused before anything is copied.
     fill_blocks(documents, dict(block))
-    publish(files, root, output)
+    publish(files, root, output, name, Sources(modules, sources) if name else None)

@@ -5,7 +5,7 @@ from typing import Any
 
 import click
 
-from asphalt_nscd.cli._options import GEOMETRY, OUTPUT, option, step
+from asphalt_nscd.cli._options import CYCLES, GEOMETRY, OUTPUT, step
 
 
 @step
@@ -13,9 +13,7 @@ def command(
     measurements: Path,
     *,
     geometry: Any = GEOMETRY,
-    cycles: int | None = option(
-        "Number of whole cycles used, at the end of a record; else those of the last 10 s.", None, low=1
-    ),
+    cycles: int | None = CYCLES,
     output: Path = OUTPUT,
 ) -> None:
     """Reduce measured peaks, records or moduli to complex moduli, Eqs. (1)-(5)."""

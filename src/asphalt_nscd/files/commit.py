@@ -1,22 +1,25 @@
-"""Of which commit this package is: what the wheel was built from, or the repository that it runs in."""
+"""Of which commit this package is: what it was packed from, or the repository that it runs in."""
 
 from __future__ import annotations
 
+import os
 import subprocess
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parents[1]
-BUILT_FROM = "commit.txt"  # in the wheel; setup.py writes it
+PACKED_FROM = "commit.txt"  # `git archive` fills it, and setup.py in sdist and wheel
+TOLD = "ASPHALT_NSCD_COMMIT"  # by a workflow to its jobs, each of which would start git twice
 
 
 def commit() -> str:
     """The hash, `-dirty` behind it where files were changed since; "unknown" outside of both."""
-    built = PACKAGE / BUILT_FROM
-    if built.is_file():
-        return built.read_text(encoding="utf-8").strip()
+    if told := os.environ.get(TOLD):
+        return told
+    packed = PACKAGE / PACKED_FROM
+    named = packed.read_text(encoding="utf-8").strip() if packed.is_file() else ""
+    if named and not named.startswith("$"):
+        return named
     root = PACKAGE.parents[1]
-    if PACKAGE.parent.name != "src" or not (root / "pyproject.toml").is_file():
-        return "unknown"  # an environment may lie within another repository
     described = _git(root, "describe", "--always", "--abbrev=40")
     # What is untracked, as results beside the code, changes no code.
     changed = _git(root, "status", "--porcelain", "--untracked-files=no") if described else ""
@@ -24,6 +27,14 @@ def commit() -> str:
 
 
 def _git(root: Path, *arguments: str) -> str:
-    """The repository is only read: `describe --dirty` would refresh its index, and leave a lock on a full disk."""
-    command = ["git", "--no-optional-locks", "-C", str(root), *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=False).stdout.strip()
+    """What git says of the repository at `root`: not of one around it, but of one of another user too.
+
+    It is only read: `describe --dirty` would refresh its index, and leave a lock on a full disk.
+    """
+    command = ["git", "--no-optional-locks", "-c", f"safe.directory={root}", "-C", str(root), *arguments]
+    alone = {name: value for name, value in os.environ.items() if not name.startswith("GIT_")}
+    alone["GIT_CEILING_DIRECTORIES"] = str(root.parent)
+    try:
+        return subprocess.run(command, capture_output=True, text=True, check=False, env=alone).stdout.strip()
+    except OSError:  # no git on this machine
+        return ""

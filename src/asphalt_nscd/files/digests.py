@@ -1,6 +1,6 @@
-"""Digests of what a workflow makes, each in a hidden file beside it: a bit may turn, or lines be lost.
+"""Digests of what a workflow makes, each in a hidden file beside it, with the commit that made it.
 
-HDF5 files hold their own (`store`).
+A bit may turn, or lines be lost. HDF5 files hold their own (`store`).
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 
+from asphalt_nscd.files.commit import commit
 from asphalt_nscd.files.errors import DamagedFile, is_result
 from asphalt_nscd.files.paths import is_file
 
@@ -29,7 +30,7 @@ def keep(path: Path, standing: bool) -> None:
     """Write down the digest of a result; of other files only where one stood, since a step was repeated by hand."""
     # HDF5 files hold their digest inside.
     if standing or (is_result(path) and path.suffix != ".h5"):
-        _digest_file(path).write_text(_digest(path) + "\n")
+        _digest_file(path).write_text(f"{_digest(path)} {commit()}\n")
 
 
 def require_unchanged(arguments: Iterable[str]) -> None:
@@ -37,7 +38,7 @@ def require_unchanged(arguments: Iterable[str]) -> None:
     for argument in arguments:
         path = Path(argument.rpartition("=")[2])
         if is_result(path) and is_file(path) and is_file(_digest_file(path)):
-            kept = _digest_file(path).read_bytes().strip()
+            kept = _digest_file(path).read_bytes().strip().partition(b" ")[0]
             if len(kept) == WHOLE and kept != _digest(path).encode():
                 raise DamagedFile(
                     path,
@@ -56,6 +57,15 @@ def damaged(folder: str | Path) -> list[DamagedFile]:
         except DamagedFile as error:
             found.append(error)
     return found
+
+
+def makers(folder: str | Path) -> dict[Path, str]:
+    """The commit that made each table, figure or page below a folder."""
+    kept = {path.with_name(path.name[1 : -len(SUFFIX)]): path for path in Path(folder).rglob(f".*{SUFFIX}")}
+    named = {
+        path: beside.read_text().partition(" ")[2].strip() for path, beside in kept.items() if path.is_file()
+    }
+    return {path: by or "unknown" for path, by in named.items()}
 
 
 def set_aside(error: DamagedFile) -> str:

@@ -7,11 +7,12 @@ import io
 import json
 import os
 import platform
-import tempfile
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from secrets import token_hex
 from typing import TYPE_CHECKING, Any
 
 from asphalt_nscd.files import digests
@@ -37,13 +38,11 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
         raise InputError(f"{path}: not a regular file, so it is not replaced; choose another path.")
     path.parent.mkdir(parents=True, exist_ok=True)
     # In the same folder, for a rename is atomic only within one file system.
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
-    os.close(handle)
-    temporary = Path(name)
+    temporary = path.with_name(f".{path.stem}-{token_hex(8)}{path.suffix}")
     try:
+        # Not by tempfile, whose files nobody else may read, whatever the umask.
+        temporary.touch(exist_ok=False)
         yield temporary
-        # mkstemp makes a file that nobody else can read; results are shared.
-        temporary.chmod(0o644)
         # Its bytes first: after a power cut the name must not stand for an empty file.
         with temporary.open("rb") as written:
             os.fsync(written.fileno())
@@ -53,7 +52,7 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
     except (OSError, RuntimeError) as error:
         # h5py and most libraries do not name the file that they could not write, nor would a
         # temporary name help.
-        if getattr(error, "filename", None) in (None, name):
+        if getattr(error, "filename", None) in (None, str(temporary)):
             error.filename = str(path)  # type: ignore[union-attr]
         raise
     finally:
@@ -181,6 +180,21 @@ def provenance() -> dict[str, Any]:
         "python": platform.python_version(),
         "packages": json.loads(told) if told else package_versions(),
     }
+
+
+def made_by(folder: str | Path) -> dict[str, dict[str, int]]:
+    """For each part of a folder of results, how many of its files which commit made."""
+    import h5py
+
+    makers = digests.makers(folder)
+    for path in Path(folder).rglob("[!.]*.h5"):
+        with h5py.File(path, "r") as file:
+            makers[path] = json.loads(file.attrs.get("provenance", "{}")).get("git_commit", "unknown")
+    parts: dict[str, Counter[str]] = {}
+    for path, commit_of_it in sorted(makers.items()):
+        part = path.relative_to(folder).parts[0]
+        parts.setdefault(part, Counter())[commit_of_it] += 1
+    return {part: dict(count) for part, count in parts.items()}
 
 
 def package_versions() -> dict[str, str]:

@@ -11,6 +11,7 @@ import ctypes
 import hashlib
 import json
 import os
+import sys
 import tempfile
 from collections.abc import Callable
 from contextlib import suppress
@@ -36,7 +37,8 @@ def native(name: str, build: Callable[[], tuple[str, str]]) -> int:
             _write(path, content)
     header, _, code = content.partition(b"\n")
     told = json.loads(header)
-    abort = ctypes.cast(ctypes.CDLL(None).abort, ctypes.c_void_p).value
+    library = ctypes.CDLL("msvcrt" if sys.platform == "win32" else None)  # None: what this process has loaded
+    abort = ctypes.cast(library.abort, ctypes.c_void_p).value
     for symbol in told["foreign"]:
         if llvm.address_of_symbol(symbol) is None:
             llvm.add_symbol(symbol, abort)

@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-VOLATILE = ("provenance", "cpu_s")  # of a run, not of its result
+VOLATILE = ("provenance",)  # of a run, not of its result
 
 
 def first_difference(published: Path, redone: Path, tolerance: float) -> str | None:

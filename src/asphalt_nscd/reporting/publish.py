@@ -5,22 +5,68 @@ from __future__ import annotations
 import hashlib
 import shutil
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import pandas as pd
 
+from asphalt_nscd.files import digests
+from asphalt_nscd.files.commit import commit
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import atomic_path
+from asphalt_nscd.files.store import atomic_path, read_json, write_json
 from asphalt_nscd.reporting.layouts import shown
+from asphalt_nscd.workflow_support.sources import meaning_of, source_files
 
 CHECKSUMS = "SHA256SUMS"
+CARRIERS = (
+    "files",
+    "cli.__init__",
+    "cli._data",
+    "cli._options",
+    "cli._progress",
+)  # of numbers, which they leave alone
+RESTS_ON = "sources.json"  # of what is published together: its commit, its sources, and what these meant
 
 
-def publish(files: Sequence[Path], root: Path, output: Path) -> None:
-    """Copy files to a folder, keeping their places below `root`, with the list of SHA-256 sums."""
+@dataclass(frozen=True)
+class Sources:
+    """What published tables rest on: modules with all that they import, dotted as `source_files` takes them; files."""
+
+    modules: Sequence[str]
+    files_read: Sequence[str]
+
+    def digest(self) -> str:
+        """Of the meaning of the modules and of the bytes of the files, as they are now; "" where one is missing."""
+        try:
+            parts = [
+                meaning_of(source_files(*self.modules, without=CARRIERS)),
+                *(f"{name} {_sum(Path(name))}" for name in self.files_read),
+            ]
+        except (OSError, ValueError):
+            return ""
+        return hashlib.sha256("\n".join(parts).encode()).hexdigest()
+
+
+def publish(
+    files: Sequence[Path], root: Path, output: Path, name: str = "", sources: Sources | None = None
+) -> None:
+    """Copy files to a folder, keeping their places below `root`, with the list of SHA-256 sums.
+
+    With `sources` it is noted, under `name`, of which commits the files are and what they rest on.
+    """
     for path in files:
         with atomic_path(output / path.relative_to(root)) as temporary:
             shutil.copyfile(path, temporary)
+    if sources:
+        makers = digests.makers(root)
+        noted = {
+            "files": sorted(path.relative_to(root).as_posix() for path in files),
+            "commits": sorted({makers.get(path, commit()) for path in files}),
+            "digest": sources.digest(),
+            **asdict(sources),
+        }
+        standing = read_json(output / RESTS_ON) if (output / RESTS_ON).is_file() else {}
+        write_json(output / RESTS_ON, standing | {name: noted})
     with atomic_path(output / CHECKSUMS) as temporary:
         # As `sha256sum --check` reads it.
         temporary.write_text("".join(f"{_sum(path)}  {name}\n" for name, path in _published(output)))
@@ -43,6 +89,22 @@ def altered(folder: Path) -> list[str]:
             found.append(f"{folder / name}: is missing")
         elif listed.get(name) != _sum(there[name]):
             found.append(f"{there[name]}: is not the file that was published ({CHECKSUMS})")
+    return found
+
+
+def stale(published: Path) -> dict[str, str]:
+    """Why, for each name under which something was published, if its sources mean something else by now."""
+    found = {}
+    for folder in sorted(path for path in published.iterdir() if path.is_dir()):
+        entries = read_json(folder / RESTS_ON) if (folder / RESTS_ON).is_file() else {}
+        if not entries:
+            found[f"publish_{folder.name}"] = "its sources were never noted"
+        for name, noted in entries.items():
+            now = Sources(noted["modules"], noted["files_read"]).digest()
+            if not now or now != noted["digest"]:
+                found[name] = (
+                    "its sources have changed" if noted["digest"] else "its sources were never noted"
+                )
     return found
 
 

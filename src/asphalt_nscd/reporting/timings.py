@@ -8,16 +8,18 @@ from pathlib import Path
 
 import pandas as pd
 
-from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.errors import CPU_TIME, InputError
 
 
 def rule_times(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataFrame:
     """One row for each rule, most time first.
 
     benchmarks: files in `folder`, rule.tsv for a single job, rule/.../*.tsv for many; those of jobs that
-    were never timed may be absent. Columns: rule, jobs, wall_s (sum over jobs), cpu_s, longest_s (a single
-    job), memory_MB (largest resident set), share_percent (of wall_s).
+    were never timed may be absent. The log of a job, in `logs` beside `folder`, ends with its CPU time; else that is
+    what Snakemake saw of it. Columns: rule, jobs, wall_s (sum over jobs), cpu_s, longest_s (a single job), memory_MB
+    (largest resident set), share_percent (of wall_s).
     """
+    logs = Path(folder).parent / "logs"
     rows = []
     for path in map(Path, benchmarks):
         if not path.exists():
@@ -25,7 +27,9 @@ def rule_times(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataF
         job = _job(path)
         # RULE.tsv, or a folder RULE with a file for each job.
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
-        rows.append((rule, *(_number(job[key]) for key in ("s", "cpu_time", "max_rss"))))
+        cpu = _told(logs / path.relative_to(folder).with_suffix(".log"))
+        seen = _number(job["cpu_time"])
+        rows.append((rule, _number(job["s"]), seen if cpu is None else cpu, _number(job["max_rss"])))
     if not rows:
         raise InputError(f"{folder}: no benchmark files; run the workflow first.")
     jobs = pd.DataFrame(rows, columns=["rule", "s", "cpu", "memory"]).groupby("rule", as_index=False)
@@ -52,6 +56,16 @@ def elapsed(benchmarks: Iterable[str | Path]) -> float:
         total += max(last - max(first, end), 0.0)
         end = max(end, last)
     return total
+
+
+def _told(log: Path) -> float | None:
+    """CPU time [s] at the end of a log."""
+    last = (
+        log.read_text(encoding="utf-8", errors="replace").rstrip().rpartition("\n")[2]
+        if log.is_file()
+        else ""
+    )
+    return float(last.removeprefix(CPU_TIME).split()[0]) if last.startswith(CPU_TIME) else None
 
 
 def _job(path: Path) -> dict[str, str]:

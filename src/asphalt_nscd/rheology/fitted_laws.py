@@ -2,23 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
+from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_json
-from asphalt_nscd.measurements.reduction import read_reduced
+from asphalt_nscd.measurements.reduction import read_reduced, reduced_frame
 from asphalt_nscd.measurements.tables import isotherm_rows
 from asphalt_nscd.rheology.fitting import fit_burgers
 from asphalt_nscd.rheology.laws_io import law_content
 
 
-def fit_temperature(measured: str | Path, temperature: float, output: str | Path) -> dict[str, Any]:
-    """Fit the Burgers law to all specimens of a reduced table at one temperature [degC], and write it as JSON."""
-    content = burgers_at(read_reduced(measured), temperature, str(measured))
+def fit_temperature(
+    measured: str | Path,
+    temperature: float,
+    output: str | Path,
+    geometry: str | Path | Mapping[str, Any] | None = None,
+    cycles: int | None = None,
+) -> dict[str, Any]:
+    """Fit the Burgers law to all specimens at one temperature [degC], and write it as JSON.
+
+    `measured` is a reduced table; with a `geometry` it is first reduced, as by `reduce_table`.
+    """
+    frame = (
+        read_reduced(measured)
+        if geometry is None
+        else reduced_frame(read_csv(measured), geometry, cycles=cycles)
+    )
+    content = burgers_at(frame, temperature, str(measured))
     write_json(output, content)
     return content
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -105,7 +104,6 @@ def _bed(position: np.ndarray, radius: np.ndarray, pouring: Pouring) -> Granular
 
 def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
     """Let a bed come to rest, vibrate it, and let it come to rest."""
-    began = time.process_time()
     box, vibration, position, radius = pouring.box, pouring.vibration, bed.position.copy(), bed.radius
     numerics = PouringNumerics.of(radius, pouring.time_step)
     # the weight of the layer: 16 times as much lowers it by 0.4 mm more, and presses grains into each other
@@ -146,7 +144,6 @@ def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
         **{f"poured_{name}": value for name, value in stages["poured"].items()},
         "kinetic_energy_J": bed.kinetic_energy(),
         **asdict(numerics),
-        "cpu_s": time.process_time() - began,
     }
     bodies, force = bed.contact_forces(pouring.time_step)
     arrays = {

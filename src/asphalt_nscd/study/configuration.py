@@ -7,6 +7,8 @@ import difflib
 import math
 import re
 from collections.abc import Iterator, Mapping
+from functools import reduce
+from operator import getitem
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +21,8 @@ from asphalt_nscd.files.paths import is_file, require_readable
 from asphalt_nscd.measurements.kinds import BENDING, PAPER_AMPLITUDE, usual_steps_per_cycle
 from asphalt_nscd.study.schema import read_schema
 
-# YAML 1.1 reads 5e-5 as text, because it has no decimal point; the author meant a number.
-_SCIENTIFIC = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
+# YAML 1.1 reads 5e-5 as text, and --config what stands in a list; where the schema wants a number it is one.
+_NUMBER = re.compile(r"[-+]?\d+(\.\d*)?([eE][-+]?\d+)?")
 _TYPES = {
     "object": "a mapping",
     "array": "a list",
@@ -44,15 +46,18 @@ POURED = ("seeds", "counts_table", "box_m")  # what pouring needs
 _OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
 
 
-def complete_study(config: Mapping[str, Any], source: str, schema: str | Path) -> dict[str, Any]:
-    """A new mapping of a study that is checked against `schema`, with every default filled in."""
-    rules = read_schema(schema)
-    study = _numbers(copy.deepcopy(dict(config)))
+def complete_study(config: Mapping[str, Any], source: str) -> dict[str, Any]:
+    """A new mapping of a study that is checked against its schema, with every default filled in."""
+    rules = read_schema()
+    study = copy.deepcopy(dict(config))
     # `test: tension-compression` is short for its type.
     if isinstance(study.get("test"), str):
         study["test"] = {"type": study["test"]}
     if not study:
         raise InputError(f"{source}: the study is empty; give one with --configfile config/paper.yaml.")
+    for error in Draft202012Validator(rules).iter_errors(study):
+        _convert(study, error)
+    study = _rounded(study)
     errors = [
         part
         for error in Draft202012Validator(rules).iter_errors(study)
@@ -119,14 +124,26 @@ def label(value: float) -> str:
     return f"{value:.10g}"
 
 
-def _numbers(value: Any) -> Any:
-    """Numbers as numbers, with the digits that file names and tables keep, so that all of them match."""
+def _convert(study: dict[str, Any], error: ValidationError) -> None:
+    """Make a text that should be a number one, if it can be."""
+    for part in (error, *error.context):
+        if (
+            part.validator == "type"
+            and part.validator_value in ("number", "integer")
+            and isinstance(part.instance, str)
+        ):
+            *keys, last = part.absolute_path
+            if _NUMBER.fullmatch(part.instance):
+                whole = part.instance.lstrip("+-").isdecimal()
+                reduce(getitem, keys, study)[last] = (int if whole else float)(part.instance)
+
+
+def _rounded(value: Any) -> Any:
+    """Numbers with the digits that file names and tables keep, so that all of them match."""
     if isinstance(value, Mapping):
-        return {key: _numbers(item) for key, item in value.items()}
+        return {key: _rounded(item) for key, item in value.items()}
     if isinstance(value, list):
-        return [_numbers(item) for item in value]
-    if isinstance(value, str) and _SCIENTIFIC.fullmatch(value):
-        value = float(value)
+        return [_rounded(item) for item in value]
     return float(label(value)) if isinstance(value, float) else value
 
 

@@ -11,12 +11,13 @@ import yaml
 
 from asphalt_nscd.files.options import options_of
 
+SCHEMA = Path(__file__).parent / "study.schema.yaml"
 _LIMITS = {"above": "exclusiveMinimum", "low": "minimum", "below": "exclusiveMaximum", "high": "maximum"}
 _TYPES = {float: "number", int: "integer", str: "string"}
 
 
-def read_schema(path: str | Path) -> dict[str, Any]:
-    """A schema file, with `option: specimen.settings.Surfaces.friction` replaced by what that field states.
+def read_schema(path: str | Path = SCHEMA) -> dict[str, Any]:
+    """The schema of a study, with `option: specimen.settings.Surfaces.friction` replaced by what that field states.
 
     Keywords beside `option` come before those of the field; a limit among them before all of its limits.
     """

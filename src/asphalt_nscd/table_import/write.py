@@ -29,13 +29,13 @@ from asphalt_nscd.measurements.tension import AMPT, Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.study.configuration import RESERVED, complete_study
 from asphalt_nscd.study.preflight import require_feasible
+from asphalt_nscd.study.schema import read_schema
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.duration import duration
 from asphalt_nscd.table_import.grid import grid
 from asphalt_nscd.table_import.spheres import PAPER, SMALLEST_MM, Spheres, read_grading, spheres_for
 
-SCHEMA = Path(__file__).resolve().parents[3] / "workflow/schemas/study.schema.yaml"
-
+_DEVICE = re.compile("con|prn|aux|nul|(com|lpt)[0-9]", re.IGNORECASE)
 STEPS_PER_CYCLE = 500  # of the paper's highest frequency, 40 Hz
 COARSEST_STEP = 2e-4  # s, of those in Fig. 6
 
@@ -125,7 +125,7 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
         write_table(table, pd.DataFrame(read.columns))
         write_table(counts, spheres.counts.rename_axis("diameter_mm").rename("count").reset_index())
         # What was written is read and checked as the workflow will do, before the configuration stands.
-        study = complete_study(yaml.safe_load(text), str(config), SCHEMA)
+        study = complete_study(yaml.safe_load(text), str(config))
         require_feasible(study, str(config))
         with atomic_path(config) as temporary:
             temporary.write_text(text, encoding="utf-8")
@@ -137,17 +137,16 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
 
 
 def _require_free(name: str, config: Path, folder: Path) -> None:
-    if not SCHEMA.is_file():
-        raise InputError(
-            "new-study: a study runs in a clone of the repository, not from an installed package; clone it, and run "
-            "the command there."
-        )
-    pattern = yaml.safe_load(SCHEMA.read_text(encoding="utf-8"))["properties"]["study"]["pattern"]
+    pattern = read_schema()["properties"]["study"]["pattern"]
     # NAME is written bare, and bare `on` or `null` is no text in YAML.
     if not re.fullmatch(pattern.strip("^$"), name) or name in RESERVED or yaml.safe_load(name) != name:
         raise InputError(
             f"NAME {name!r}: give letters, digits, - and _, the first a letter, and none of "
             f"{', '.join(RESERVED)}, and no word with a meaning of its own in YAML, such as true or null."
+        )
+    if _DEVICE.fullmatch(name):
+        raise InputError(
+            f"NAME {name!r} is a device on Windows, where nobody could open the study; choose another NAME."
         )
     for path in (config, folder):
         if path.exists():

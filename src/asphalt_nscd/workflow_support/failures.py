@@ -8,6 +8,7 @@ from pathlib import Path
 
 _FAILED = re.compile(r"^ +log: (.+) \(check log file", re.MULTILINE)  # as Snakemake puts it
 _SET_ASIDE = re.compile(r"error: (.+?): .*; it was set aside as ")
+_PROGRESS = re.compile(r"\d+%")
 KILLED = "error: the job was killed, or the memory was used up; run the same command again."
 
 
@@ -22,13 +23,15 @@ def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
     said = []
     for path in map(Path, dict.fromkeys(_FAILED.findall(run))):
         text = _text(path).rstrip()
-        last = text.rpartition("\n")[2]
-        # A job that was killed leaves no last word of its own.
-        if not last.startswith("error: ") and "Traceback" not in text:
+        last = re.split(r"[\r\n]", text)[-1]
+        # A job that was killed leaves no last word of its own, or how far it had come; other programs say no `error:`.
+        if not last or _PROGRESS.search(last):
             last = KILLED
             path.parent.mkdir(parents=True, exist_ok=True)
             with path.open("a", encoding="utf-8") as file:
                 file.write(f"\n{KILLED}\n")
+        elif not last.startswith("error: ") and "Traceback" not in text:
+            last = f"error: {last}"
         said.append(f"{last} ({path})")
     aside = {found[1] for sentence in said if (found := _SET_ASIDE.match(sentence))}
     # Jobs that wait for a file set aside fail too, and say nothing new.

@@ -22,12 +22,14 @@ PACKAGE = Path(__file__).resolve().parents[1]
 STUDIES: list[Path] = []  # the folder of studies/, from where the workflow knows that it stands
 
 
-def source_files(*modules: str) -> list[Path]:
+def source_files(*modules: str, without: Sequence[str] = ()) -> list[Path]:
     """Files of `modules` (dotted, relative to the package, or in studies) and of all they import from both, sorted.
 
-    Imports inside functions count. A package's `__init__.py` counts only where it is itself imported.
+    Imports inside functions count. A package's `__init__.py` counts only where it is itself imported. Modules and
+    packages named in `without`, and what only they import, are left out.
     """
     found: set[Path] = set()
+    outside = [PACKAGE.joinpath(*name.split(".")) for name in without]
     waiting = []
     for module in modules:
         parts = tuple(module.split("."))
@@ -37,7 +39,7 @@ def source_files(*modules: str) -> list[Path]:
         waiting.append(file)
     while waiting:
         path = waiting.pop()
-        if path not in found:
+        if path not in found and not any(place in (path.with_suffix(""), *path.parents) for place in outside):
             found.add(path)
             waiting.extend(_read(path, path.stat().st_mtime_ns).imported)
     return sorted(found)
@@ -46,13 +48,18 @@ def source_files(*modules: str) -> list[Path]:
 def stamp(folder: str | Path, name: str, files: Sequence[Path]) -> Path:
     """A file that stands for the meaning of many source files, rewritten only when one of them changed.
 
-    It holds a digest of what they mean; comments, docstrings and layout mean nothing. Snakemake looks at each input of
-    each waiting job whenever a job ends, so one file is better than thirty.
+    It holds a digest of what they mean (`meaning_of`); comments, docstrings and layout mean nothing. Snakemake looks at
+    each input of each waiting job whenever a job ends, so one file is better than thirty.
     """
+    return noted(Path(folder, name), meaning_of(files), files)
+
+
+def meaning_of(files: Sequence[Path]) -> str:
+    """A digest of what source files mean."""
     digest = hashlib.sha256()
     for file in files:
         digest.update(f"{_place(file)}\n{_read(file, file.stat().st_mtime_ns).meaning}\n".encode())
-    return _keep(Path(folder, name), digest.hexdigest(), files)
+    return digest.hexdigest()
 
 
 def stamp_of_row(folder: str | Path, table: str | Path, key: str, value: float) -> Path:
@@ -67,23 +74,25 @@ def stamp_of_row(folder: str | Path, table: str | Path, key: str, value: float) 
     content = text
     if rows and key in rows[0]:
         column = rows[0].index(key)
-        found = [row for row in rows[1:] if len(row) > column and _is_number(row[column], value)]
+        found = [row for row in rows[1:] if len(row) > column and is_number(row[column], value)]
         content = repr((rows[0], found)) if found else text
     digest = hashlib.sha256(content.encode()).hexdigest()
-    return _keep(Path(folder, f"{path.stem}-{value:g}"), digest, [path] if path.is_file() else [])
+    return noted(Path(folder, f"{path.stem}-{value:g}"), digest, [path] if path.is_file() else [])
 
 
-def _keep(path: Path, content: str, files: Sequence[Path]) -> Path:
-    """Write a stamp of `files` unless it stands already."""
+def noted(path: Path, content: str, files: Sequence[Path] = ()) -> Path:
+    """Write what stands for `files`, if they are given, unless it stands already; the path."""
     if not path.is_file() or path.read_text() != content:
         with atomic_path(path) as temporary:
             temporary.write_text(content)
-        newest = max((file.stat().st_mtime_ns for file in files), default=0)
-        os.utime(path, ns=(newest, newest))  # a lost stamp must not look like a change
+        if files:
+            newest = max(file.stat().st_mtime_ns for file in files)
+            os.utime(path, ns=(newest, newest))  # a lost stamp must not look like a change
     return path
 
 
-def _is_number(text: str, value: float) -> bool:
+def is_number(text: str, value: float) -> bool:
+    """Whether a cell holds this number."""
     try:
         return float(text) == value
     except ValueError:
