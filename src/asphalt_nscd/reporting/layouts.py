@@ -298,15 +298,22 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
                 "fitted": "fitted",
                 "E_percent": "E, %",
                 "phase_percent": "phase, %",
-                "left_out_isotherm_E_percent": "isotherm out: E",
-                "left_out_isotherm_phase_percent": "phase ",
-                "left_out_specimen_E_percent": "specimen out: E",
-                "left_out_specimen_phase_percent": "phase  ",
                 "simulated_E_percent": "simulated: E",
-                "simulated_phase_percent": "phase   ",
+                "simulated_phase_percent": "phase ",
             },
             figures=3,
-        )
+        ),
+        Layout(
+            {
+                "rung": "law",
+                "left_out_isotherm_E_percent": "isotherm out: E, %",
+                "left_out_isotherm_phase_percent": "phase, %",
+                "left_out_specimen_E_percent": "specimen out: E, %",
+                "left_out_specimen_phase_percent": "phase, % ",
+            },
+            "Of what was left out:",
+            figures=3,
+        ),
     ],
     "measured_amplitude": [
         Layout(
@@ -335,15 +342,23 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
                 "reading_deg": "reading",
                 "contacts_deg": "contacts",
                 "softening_deg": "softening",
+                "verdict": "verdict",
+            },
+            figures=3,
+        ),
+        Layout(
+            {
+                "population": "population",
+                "temperature_C": "T, °C",
                 "correlation": "r",
                 "rms_deg": "rms",
                 "rms_less_reading_deg": "less reading",
                 "rms_less_all_deg": "less all",
                 "rms_less_mean_deg": "less mean",
-                "verdict": "verdict",
             },
+            "Root mean squares over the mixes:",
             figures=3,
-        )
+        ),
     ],
     "forecast_blind": [
         Layout(
