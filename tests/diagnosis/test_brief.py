@@ -76,17 +76,21 @@ def test_a_certain_fault_comes_with_its_correction():
 
 
 @pytest.mark.parametrize(
-    "then,said",
+    "then,said,weighed",
     [
-        ({}, ""),
-        ({"as_good": ["phase_offset @ B"]}, " Not certain: phase offset of specimen B fits as well."),
+        ({}, "", "both, with it and without"),
+        (
+            {"as_good": ["film_softening"]},
+            " Not certain: film softening fits as well.",
+            "it, film softening and neither, by probability",
+        ),
     ],
 )
-def test_a_fault_that_is_not_certain_is_a_possible_one_with_its_probability(then, said):
+def test_a_fault_that_is_not_certain_is_a_possible_one_with_its_probability(then, said, weighed):
     unsure = rung("phase_offset", 1.5, "deg", established=False, **then) | {"probability": 0.72}
     sure, possible, data = faults(unsure)
     first = "Phase offset in all tests, 1.50 +- 0.20 deg. If so, the measured phases are too large."
-    assert possible == [f"{first}{said} Its probability is 72 %: {AVERAGED}"]
+    assert possible == [f"{first}{said} Its probability is 72 %: {AVERAGED.format(weighed)}"]
     assert sure == ["None is certain."] and data == ["All 72 tests can be used."]
 
 

@@ -194,8 +194,8 @@ class Rung(TypedDict):
         tables. At least 0.95 of an established one.
     as_good: Causes that fit as well at this rung; the data do not tell them apart from this one.
     established: Whether the name is more than the likeliest; the whole table carries it and nothing fits as well.
-    taken_off: Of a cause, by how much of it law.json is free and the extended simulation holds it: one if
-        established, else its probability.
+    taken_off: Of a cause, by how much of it law.json is free and the extended simulation holds it: probability of the
+        explanations of averaged_over that hold it, one if established.
     hangs_on: Isotherms, frequencies or specimens without which these data would not show the cause.
     doubts: Reasons, in words, why an effect that the catalogue lacks may stand behind the name.
     sentence: What is wrong, in words.

@@ -24,6 +24,7 @@ from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
 TESTS_OF = TEST_TYPES | {UNKNOWN: "tests of a kind that was not said"}
 EFFECTS = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to}
+ALTERING = {cause.name for cause in CATALOGUE if cause.alters_tests}
 OF_THE_MIX = EFFECTS | {LAW, BOND_MAPPING}
 SIMPLER = "one Burgers law for each temperature"
 COMMON = "the free master curve"  # the name of the law of the diagnosis; the other is called law.json
@@ -57,6 +58,11 @@ def faults(content: Content) -> list[Content]:
 def effects(content: Content) -> list[Content]:
     """Named effects of the mix itself beside its relaxation: what it does while it is tested, in the ladder's order."""
     return [rung for rung in content["ladder"] if rung["cause"] in EFFECTS]
+
+
+def taken_off(rung: Content) -> bool:
+    """Whether corrected.csv is free of a cause once it is established: what a mix does itself stays in it."""
+    return rung["cause"] in ALTERING
 
 
 def correction(rung: Content) -> str:
