@@ -655,7 +655,8 @@ class Reading(TypedDict):
     limits_exceeded: Tests whose quality column is above the limit of AASHTO T 378, in the unit that its name carries.
     notes: Sentences on how files and columns were read.
     not_tested: Specimens without tests at a temperature at which most others have some, in words.
-    files_without_tests: A sentence for each folder some of whose files hold no test.
+    files_without_tests: A sentence for each folder some of whose files hold no test, and for each table some of whose
+        tests lack a phase.
     """
 
     test_type: Literal["bending", "tension-compression", "unknown"]
