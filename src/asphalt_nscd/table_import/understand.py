@@ -123,7 +123,9 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None, mix: str |
     results = FORMS["moduli" if form == "modulus" else form]
     order = ("specimen", "replicate", *KEYS, *results, "origin", *FURTHER, *MAY_BE_ABSENT)
     wanted = {name: values[name] for name in order if name in values}
-    return ParsedTable(Table(cells.path, wanted, [line for line, _ in cells.rows]), form, notes, read, of_mix, without_phase)
+    return ParsedTable(
+        Table(cells.path, wanted, [line for line, _ in cells.rows]), form, notes, read, of_mix, without_phase
+    )
 
 
 def _own(cells: Cells) -> ParsedTable | None:
