@@ -265,3 +265,20 @@ def test_an_established_effect_of_the_mix_is_told_with_its_size():
     perhaps = answer([warm | {"established": False}], law_misses=misses, scatter={"from_replicates": True})
     assert "Effect" not in perhaps and perhaps["Fault"] == ["None found."]
     assert perhaps["Possible effect"][0].startswith("Self heating in all tests, 3.42 +- 0.20 K. If so, the")
+
+
+EFFECT = rung("film_softening", 2.5, "deg", sentence="the mix is not linear", probability=0.6)
+
+
+@pytest.mark.parametrize(
+    "rival,said", [("phase_offset", "None is certain."), ("drifting_reading", "None found.")]
+)
+def test_an_effect_that_a_fault_rivals_leaves_a_fault_possible(rival, said):
+    assert faults(EFFECT | {"established": False, "as_good": [rival]})[0] == [said]
+
+
+def test_an_established_effect_stays_in_the_corrected_tests():
+    misses = {"mre_E_percent": 1.0, "mre_phase_percent": 2.0}
+    told = answer([EFFECT], law_misses=misses, scatter={"from_replicates": True})
+    assert told["Effect"][0].endswith("law.json is free of it; corrected tests keep it.")
+    assert "corrected" not in told["Law"][0] and told["Data"] == ["All 72 tests can be used."]

@@ -136,7 +136,7 @@ def corrected(diagnosis: Diagnosis, whole: Observations, mix: Mixture, record: p
             "recorded_phase_deg": np.degrees(np.angle(whole.modulus)),
             "reduced_frequency_Hz": whole.frequency * np.exp(shift),
             "corrected_for": list(_at_each(whole, used, active)),
-            "possible_and_not_corrected": list(_at_each(whole, used, left)),
+            "not_corrected_for": list(_at_each(whole, used, left)),
             "status": record["status"],
             # No semicolon, which a reader of the file might take for the mark between columns.
             "reasons": [", ".join(one).replace("; ", ", ") for one in record["reasons"]],

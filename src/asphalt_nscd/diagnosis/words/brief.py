@@ -46,11 +46,12 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
     simulated = left is not None or verdict.bonded(content)
     certain, possible = (_told(verdict.faults(content), content, wanted) for wanted in (True, False))
     effects, likely = (_told(verdict.effects(content), content, wanted) for wanted in (True, False))
+    a_fault = bool(possible) or verdict.rivalled_by_a_fault(content)
     found: Rows = [
         ("Tests", _tests(content)),
         ("Note", _notes(content)),
         ("Data", _data(content)),
-        ("Fault", certain or _lack_of_certainty(content, bool(possible), bool(effects))),
+        ("Fault", certain or _lack_of_certainty(content, a_fault, bool(effects))),
         ("Possible fault", possible),
         ("Effect", effects),
         ("Possible effect", likely),
