@@ -134,7 +134,7 @@ def test_how_it_shows_itself(diagnosis):
     told = str(diagnosis)
     assert (
         told.startswith("Tests ")
-        and "\nFault           Channel delay in all tests, 0.788 +- 0.024 ms." in told
+        and "\nFault           Channel delay in all tests, 0.788 +- 0.025 ms." in told
     )
     assert diagnosis.details.startswith(told)
     assert f"\nWHAT WAS READ\n{diagnosis.notes[0]}" in diagnosis.details

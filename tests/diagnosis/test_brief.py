@@ -76,17 +76,21 @@ def test_a_certain_fault_comes_with_its_correction():
 
 
 @pytest.mark.parametrize(
-    "then,said",
+    "then,said,weighed",
     [
-        ({}, ""),
-        ({"as_good": ["phase_offset @ B"]}, " Not certain: phase offset of specimen B fits as well."),
+        ({}, "", "both, with it and without"),
+        (
+            {"as_good": ["film_softening"]},
+            " Not certain: film softening fits as well.",
+            "it, film softening and neither, by probability",
+        ),
     ],
 )
-def test_a_fault_that_is_not_certain_is_a_possible_one_with_its_probability(then, said):
+def test_a_fault_that_is_not_certain_is_a_possible_one_with_its_probability(then, said, weighed):
     unsure = rung("phase_offset", 1.5, "deg", established=False, **then) | {"probability": 0.72}
     sure, possible, data = faults(unsure)
     first = "Phase offset in all tests, 1.50 +- 0.20 deg. If so, the measured phases are too large."
-    assert possible == [f"{first}{said} Its probability is 72 %: {AVERAGED}"]
+    assert possible == [f"{first}{said} Its probability is 72 %: {AVERAGED.format(weighed)}"]
     assert sure == ["None is certain."] and data == ["All 72 tests can be used."]
 
 
@@ -261,3 +265,20 @@ def test_an_established_effect_of_the_mix_is_told_with_its_size():
     perhaps = answer([warm | {"established": False}], law_misses=misses, scatter={"from_replicates": True})
     assert "Effect" not in perhaps and perhaps["Fault"] == ["None found."]
     assert perhaps["Possible effect"][0].startswith("Self heating in all tests, 3.42 +- 0.20 K. If so, the")
+
+
+EFFECT = rung("film_softening", 2.5, "deg", sentence="the mix is not linear", probability=0.6)
+
+
+@pytest.mark.parametrize(
+    "rival,said", [("phase_offset", "None is certain."), ("drifting_reading", "None found.")]
+)
+def test_an_effect_that_a_fault_rivals_leaves_a_fault_possible(rival, said):
+    assert faults(EFFECT | {"established": False, "as_good": [rival]})[0] == [said]
+
+
+def test_an_established_effect_stays_in_the_corrected_tests():
+    misses = {"mre_E_percent": 1.0, "mre_phase_percent": 2.0}
+    told = answer([EFFECT], law_misses=misses, scatter={"from_replicates": True})
+    assert told["Effect"][0].endswith("law.json is free of it; corrected tests keep it.")
+    assert "corrected" not in told["Law"][0] and told["Data"] == ["All 72 tests can be used."]

@@ -194,5 +194,6 @@ def test_sign_of_an_amplitude_is_said(name, amplitude, meant):
     }
     ((_, said),) = sentences.causes(SOUND | {"ladder": [rung]})
     assert meant in said.split(".")[0] and said.endswith(
-        "Established: the chance that scatter alone produces it is below one in a million. To confirm it: c."
+        "Established, with a probability of 97 %: the chance that scatter alone produces it is below one in a "
+        "million. To confirm it: c."
     )

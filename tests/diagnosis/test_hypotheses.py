@@ -28,7 +28,13 @@ def test_what_is_open_has_a_law_for_each_explanation():
     assert sum(one.probability for one in told) == pytest.approx(1.0)
     alone = [[cause.cause.name for cause in one.causes] for one in told]
     named = [rung.candidate.cause.name, *(rival.cause.name for rival in rung.rivals)]
-    assert {name for names in alone for name in names} <= set(named) and [] in alone
+    assert sorted(name for names in alone for name in names) == sorted(named) and [] in alone
+    # A rival has what the search gave it, scaled as the name was: not an even part of what is left.
+    weight = {names[0]: one.probability for one, names in zip(told, alone, strict=True) if names}
+    for rival, share in zip(rung.rivals, rung.shares, strict=True):
+        expected = share * found.probability(rung) / rung.probability
+        assert weight[rival.cause.name] == pytest.approx(expected, rel=1e-9)
+    assert found.share(rung) == pytest.approx(found.probability(rung))
     assert [one.probability for one in told] == sorted((one.probability for one in told), reverse=True)
     # Without an offset or a softening the law itself has the phases that were read.
     observed = found.observed

@@ -63,14 +63,20 @@ def test_what_is_only_possible_is_not_taken_off(compared):
     outcome = compared.diagnoses["S6-1_RH"].outcome
     tests, grid = outcome.to_report["corrected"], outcome.to_report["reported"]
     assert (tests["phase_deg"] - tests["recorded_phase_deg"]).abs().max() < 1e-9
-    shares = [one["probability"] for one in outcome.content["averaged_over"]]
-    assert sum(shares) == pytest.approx(1.0)
-    if len(shares) == 1:
-        pytest.skip("these tests leave no cause open")
-    values, _ = outcome.mix.parts(2.0 * np.pi * np.array([10.0]), np.array([15.0]))
-    phases = np.degrees(values.imag[:, 0])
+    shares = np.array([one["probability"] for one in outcome.content["averaged_over"]])
+    assert shares.sum() == pytest.approx(1.0) and shares.size > 1
+    rungs = [rung for rung in outcome.content["ladder"] if rung["probability"] is not None]
+    for rung in rungs:
+        held = [rung["cause"] in one["causes"] for one in outcome.content["averaged_over"]]
+        assert rung["taken_off"] == pytest.approx(shares[held].sum())
+    values, errors = outcome.mix.parts(2.0 * np.pi * np.array([10.0]), np.array([15.0]))
+    phases, sizes = np.degrees(values.imag[:, 0]), np.degrees(errors.imag[:, 0])
     first = grid.iloc[0]
-    assert first["phase_low_deg"] < phases.min() and phases.max() < first["phase_high_deg"]
+    assert first["phase_deg"] == pytest.approx(shares @ phases)
+    likely = phases[shares > 0.05]
+    assert first["phase_low_deg"] < likely.min() and likely.max() < first["phase_high_deg"]
+    # The likeliest alone would be surer: the interval knows of the doubt.
+    assert first["phase_high_deg"] - first["phase_low_deg"] > 1.1 * 2.0 * 1.96 * sizes[0]
     assert "%" in first["averaged_over"]
 
 

@@ -10,7 +10,7 @@ import pytest
 
 import asphalt_nscd as an
 from asphalt_nscd.diagnosis.record.mixture import standard_errors
-from asphalt_nscd.diagnosis.record.reported import tested
+from asphalt_nscd.diagnosis.record.reported import tested as within_the_tests
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 
@@ -77,7 +77,7 @@ def test_the_tests_reach_2_kelvin_and_a_factor_of_2_beyond_the_last_of_them(
     diagnosis, temperature, frequency, celsius, factor
 ):
     def reached(t, f):
-        return tested(diagnosis.outcome.mix, np.array([t]), np.array([f]))[0]
+        return within_the_tests(diagnosis.outcome.mix, np.array([t]), np.array([f]))[0]
 
     assert reached(temperature, frequency * factor**0.95)
     assert not reached(temperature, frequency * factor**1.05)

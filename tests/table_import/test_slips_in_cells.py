@@ -37,6 +37,14 @@ def test_a_gap_is_filled_only_if_both_sides_agree(tmp_path):
     refused(read, tmp_path, changed((0, 1, None)), names=["t.csv, line 2: T (°C)", "empty"])
 
 
+def test_a_test_without_a_phase_is_left_out_and_told_and_more_are_refused(tmp_path):
+    campaign = read(tmp_path, changed((2, 4, None)))
+    assert campaign.without_tests == ("Left out of t.csv, for its phase is empty: line 4.",)
+    whole, left = as_is(tmp_path), plain(campaign.table)
+    assert left == {name: [*values[:2], *values[3:]] for name, values in whole.items()}
+    refused(read, tmp_path, changed((2, 4, None), (5, 4, None)), names=["t.csv, line 4: phi", "empty"])
+
+
 @pytest.mark.parametrize(
     ("header", "rows"),
     [

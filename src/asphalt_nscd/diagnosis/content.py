@@ -194,8 +194,8 @@ class Rung(TypedDict):
         tables. At least 0.95 of an established one.
     as_good: Causes that fit as well at this rung; the data do not tell them apart from this one.
     established: Whether the name is more than the likeliest; the whole table carries it and nothing fits as well.
-    taken_off: Of a cause, by how much of it law.json is free and the extended simulation holds it: one if
-        established, else its probability.
+    taken_off: Of a cause, by how much of it law.json is free and the extended simulation holds it: probability of the
+        explanations of averaged_over that hold it, one if established.
     hangs_on: Isotherms, frequencies or specimens without which these data would not show the cause.
     doubts: Reasons, in words, why an effect that the catalogue lacks may stand behind the name.
     sentence: What is wrong, in words.
@@ -655,7 +655,8 @@ class Reading(TypedDict):
     limits_exceeded: Tests whose quality column is above the limit of AASHTO T 378, in the unit that its name carries.
     notes: Sentences on how files and columns were read.
     not_tested: Specimens without tests at a temperature at which most others have some, in words.
-    files_without_tests: A sentence for each folder some of whose files hold no test.
+    files_without_tests: A sentence for each folder some of whose files hold no test, and for each table some of whose
+        tests lack a phase.
     """
 
     test_type: Literal["bending", "tension-compression", "unknown"]

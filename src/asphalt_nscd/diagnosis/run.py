@@ -142,7 +142,7 @@ def conclude(
     content, before = report.diagnosis_content(diagnosis, numerical), None
     content |= {"suspect_tests": told(record), "trust": counts(record, observed.isotherms.tolist())}
     content["averaged_over"] = [
-        {"causes": [name_at(*cause.key) for cause in one.possible], "probability": one.probability}
+        {"causes": [name_at(*cause.key) for cause in mix.possible(one)], "probability": one.probability}
         for one in mix.hypotheses
     ]
     content["scatter"]["air_voids"] = explained(diagnosis, volumes)

@@ -22,7 +22,7 @@ class Campaign:
     """Tests of a campaign in our columns, the files they came from, and sentences on how they were read.
 
     `test_type` is one of `kinds.TEST_TYPES`, or UNKNOWN; `without_tests` has a sentence for each folder some of whose
-    files hold no test.
+    files hold no test, and for each table some of whose tests lack a phase.
     """
 
     table: Table

@@ -80,6 +80,7 @@ def read_campaign(
     refuse_mislabelled(parts)
     _require_named_specimens(paths, parts)
     parts = drop_repeated(parts, notes)
+    without_tests += dict.fromkeys(part.read.without_phase for part in parts if part.read.without_phase)
     _require_one_mix(parts)
     forms = sorted({part.read.form for part in parts})
     if len(forms) > 1:

@@ -53,7 +53,8 @@ def campaign_of(
         *read.notes,
         *(f"{name} from column {column.source}" for name, column in read.read.items()),
     ]
-    return Campaign(read.table, (), test_type or frame.attrs.get(TEST_TYPE, "bending"), tuple(notes))
+    kind, left_out = test_type or frame.attrs.get(TEST_TYPE, "bending"), (read.without_phase,)
+    return Campaign(read.table, (), kind, tuple(notes), left_out if read.without_phase else ())
 
 
 def _cell(value: Any) -> str:

@@ -36,6 +36,7 @@ _WORDS = {
     "psi_deg": "phase between force and displacement",
 } | PARTS
 MAY_BE_ABSENT = (*QUALITY, "microstrain", "air_voids_percent", "vma_percent", "vfa_percent")
+FEW = 0.125  # share of the tests that may lack a phase: of more the column is not what it seems
 # Form, the angle that it lacks, the other one that stands there, and whose phase is wanted.
 _ANGLES = (
     ("moduli", "phase_deg", "psi_deg", "E*"),
@@ -63,13 +64,17 @@ class Column:
 
 @dataclass(frozen=True)
 class ParsedTable:
-    """A table in our columns and units, how it was read, and the user's columns; `form` is a key of FORMS."""
+    """A table in our columns and units, how it was read, and the user's columns; `form` is a key of FORMS.
+
+    `without_phase` tells of tests that were left out for want of a phase; empty if none was.
+    """
 
     table: Table
     form: str
     notes: list[str]
     read: dict[str, Column] = field(default_factory=dict)
     mix: str = ""
+    without_phase: str = ""
 
     @property
     def modulus_unit(self) -> str:
@@ -95,6 +100,7 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None, mix: str |
             copies |= same
     kept |= _further(columns, form)
     cells, of_mix = _of_one_mix(cells, kept, mix)
+    cells, without_phase = _with_phase(cells, kept)
     notes = [*cells.notes, *agreed]
     # Over all columns: 1,234 alone can be read in two ways, and another column settles it.
     numeric = [place for name, (place, _) in kept.items() if name not in (*TEXTS, "mix")]
@@ -117,7 +123,9 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None, mix: str |
     results = FORMS["moduli" if form == "modulus" else form]
     order = ("specimen", "replicate", *KEYS, *results, "origin", *FURTHER, *MAY_BE_ABSENT)
     wanted = {name: values[name] for name in order if name in values}
-    return ParsedTable(Table(cells.path, wanted, [line for line, _ in cells.rows]), form, notes, read, of_mix)
+    return ParsedTable(
+        Table(cells.path, wanted, [line for line, _ in cells.rows]), form, notes, read, of_mix, without_phase
+    )
 
 
 def _own(cells: Cells) -> ParsedTable | None:
@@ -204,6 +212,19 @@ def _of_one_mix(cells: Cells, kept: Mapping[str, Place], wanted: str | None) -> 
             f"{column_cue('specimen', cells.header[place])}."
         )
     return cells, mixes[0]
+
+
+def _with_phase(cells: Cells, kept: Mapping[str, Place]) -> tuple[Cells, str]:
+    """The rows that have a phase, and a sentence on the few that have none; all of them where those are not few."""
+    if "phase_deg" not in kept:
+        return cells, ""
+    place, _ = kept["phase_deg"]
+    lines = [line for line, row in cells.rows if row[place].casefold() in ABSENT]
+    if not lines or len(lines) > FEW * len(cells.rows):
+        return cells, ""
+    rows = [one for one in cells.rows if one[0] not in lines]
+    told = f"Left out of {cells.path.name}, for its phase is empty: line {', '.join(map(str, lines))}."
+    return replace(cells, rows=rows), told
 
 
 def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequence[str]]:

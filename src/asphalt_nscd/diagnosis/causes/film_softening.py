@@ -13,10 +13,10 @@ EXPONENTS = 2.0, 0.5, 1.0, 4.0
 
 
 class FilmSoftening(Cause):
-    """Binder films flow faster the more they are strained: |E*| falls and the phase rises where the mix is soft.
+    """Binder films flow faster the more they are strained: the phase rises above what |E*| requires where it is soft.
 
     |E*| that falls with the softness is another law, which every law follows, and so is the phase that goes with its
-    slope. What no law follows, and this is, are phases above that.
+    slope. What no law follows, and this is, are phases above that; |E*| stays as it is.
     """
 
     name = "film_softening"
@@ -29,7 +29,7 @@ class FilmSoftening(Cause):
         "a softening of the binder films with strain",
         "(phase {} above what |E*| requires in the softest test)",
     )
-    sentence = "the mix is not linear where it is soft: |E*| falls and the phase rises with the strain"
+    sentence = "the mix is not linear where it is soft: its phase lies above what |E*| requires"
     confirmed_by = "the softest tests again at half the strain, and a test on metal"
 
     def __init__(self, exponent: float = EXPONENTS[0]) -> None:

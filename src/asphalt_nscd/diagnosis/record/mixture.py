@@ -6,52 +6,22 @@ intervals of the mix know of the doubt.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-from itertools import product
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.special import stdtr
 
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
-from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
 from asphalt_nscd.diagnosis.observed.scatter import SCALE_FREEDOM
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
-from asphalt_nscd.diagnosis.search.ladder import Rung
+from asphalt_nscd.diagnosis.search.hypotheses import Hypothesis
 from asphalt_nscd.files.words import specimen_named
 
-LEAST = 0.01  # probability of a set of causes that counts
 CLOSE = 1e-3  # change of the objective at which the fit of a hypothesis ends
 HALVINGS = 60
-Choice = tuple[float, Candidate | None]
-
-
-@dataclass(frozen=True)
-class Hypothesis:
-    """A set of causes, how probable it is, and the law of the mix fitted with them to the tests that are kept."""
-
-    probability: float
-    joint: Joint
-    fitted: Fitted
-    possible: tuple[Candidate, ...] = ()  # those that other hypotheses lack
-
-    def effect(self, every: Joint) -> Complex:
-        """ln (n,) of what the causes do to E* in each test."""
-        law = self.fitted.law
-        return _logarithm(every.apparent(law, self.fitted.active)[0] / every.apparent(law, ())[0])
-
-    def along(self, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
-        """ln E* (n,) of the mix and its derivative (n, p) by the parameters of the free curve."""
-        modulus, slope = self.joint.base.modulus(self.fitted.law, omega, temperature)
-        return _logarithm(modulus), slope / modulus[:, None]
-
-    @property
-    def covariance(self) -> NDArray[np.float64]:
-        """Of the parameters (p, p) of the free curve."""
-        size = self.fitted.law.size
-        return self.fitted.covariance[:size, :size]
 
 
 @dataclass(frozen=True)
@@ -69,6 +39,12 @@ class Mixture:
     def weights(self) -> Vector:
         """Probabilities (h,), of sum one."""
         return np.array([one.probability for one in self.hypotheses])
+
+    def possible(self, one: Hypothesis) -> tuple[Candidate, ...]:
+        """Causes of a hypothesis that another lacks."""
+        others = [{cause.key for cause in other.causes} for other in self.hypotheses]
+        sure = set.intersection(*others)
+        return tuple(cause for cause in one.causes if cause.key not in sure)
 
     @property
     def base(self) -> FlexibleSpectrum:
@@ -130,55 +106,27 @@ class Mixture:
 
 def mixture(diagnosis: Diagnosis, kept: NDArray[np.bool_]) -> Mixture:
     """What the diagnosis leaves open of the mix, by the tests (n,) of it that are `kept`."""
-    every, fitted = _common(diagnosis)
-    observed, noise = every.observed, every.noise
-    joint = every if kept.all() else Joint(observed.subset(kept), every.base, noise.subset(kept))
-    open_to_doubt = [rung for rung in diagnosis.ladder.rungs if not diagnosis.established(rung)]
-    sure = tuple(
-        one for one in fitted.active if one.key not in {rung.candidate.key for rung in open_to_doubt}
-    )
-    found: list[Hypothesis] = []
-    sets = sorted(_sets(diagnosis, open_to_doubt, fitted), key=lambda one: -one[0])
-    for probability, causes in sets:
-        if probability < LEAST and found:
-            break
-        active = tuple(one for one in (*sure, *causes) if one.cause.rows(joint.observed, one.place).any())
-        as_it_was = kept.all() and {one.key for one in active} == {one.key for one in fitted.active}
-        again = fitted if as_it_was else joint.fit(fitted.law, fitted.scales, active, CLOSE)
-        found.append(Hypothesis(probability, joint, again, causes))
-    total = sum(one.probability for one in found)
-    weighed = tuple(Hypothesis(h.probability / total, h.joint, h.fitted, h.possible) for h in found)
-    freedom, specimens = diagnosis.noise.freedom, np.unique(joint.observed.specimen).size
+    explanations = tuple(_of_kept(one, kept) for one in diagnosis.hypotheses)
+    freedom, specimens = diagnosis.noise.freedom, np.unique(explanations[0].joint.observed.specimen).size
     # Taken for known, the scatter of two to four specimens held the mix in 88 to 89 % of drawn tables, not 95.
-    return Mixture(weighed, (min(freedom, SCALE_FREEDOM + specimens - 1), freedom), kept)
+    return Mixture(explanations, (min(freedom, SCALE_FREEDOM + specimens - 1), freedom), kept)
 
 
-def shares(diagnosis: Diagnosis, rung: Rung) -> tuple[Choice, ...]:
-    """A named cause, its rivals and none, each with its probability; an established cause alone."""
-    if diagnosis.established(rung):
-        return ((1.0, rung.candidate),)
-    probability = diagnosis.probability(rung)
-    rest = (1.0 - probability) / (1 + len(rung.rivals))
-    return (probability, rung.candidate), *((rest, rival) for rival in rung.rivals), (rest, None)
-
-
-def _sets(
-    diagnosis: Diagnosis, rungs: Sequence[Rung], fitted: Fitted
-) -> list[tuple[float, tuple[Candidate, ...]]]:
-    """Sets of possible causes and their probabilities; named ones as the last fit has them."""
-    values = {one.key: one for one in fitted.active}
-    found = []
-    for chosen in product(*(shares(diagnosis, rung) for rung in rungs)):
-        causes = {one.key: values.get(one.key, one) for _, one in chosen if one is not None}
-        found.append((float(np.prod([share for share, _ in chosen])), tuple(causes.values())))
-    return found
+def _of_kept(one: Hypothesis, kept: NDArray[np.bool_]) -> Hypothesis:
+    """An explanation fitted anew to the tests (n,) that are `kept`, with the causes that they hold."""
+    if kept.all():
+        return one
+    every = one.joint
+    joint = Joint(every.observed.subset(kept), every.base, every.noise.subset(kept))
+    active = tuple(cause for cause in one.causes if cause.cause.rows(joint.observed, cause.place).any())
+    return replace(one, joint=joint, fitted=joint.fit(one.fitted.law, one.fitted.scales, active, CLOSE))
 
 
 def averaged_over(mix: Mixture) -> str:
     """The hypotheses of a mixture with their probabilities, in a line: `phase offset 78 %, none of these 22 %`."""
     parts = []
     for one in mix.hypotheses:
-        causes = " and ".join(map(_words, one.possible))
+        causes = " and ".join(map(_words, mix.possible(one)))
         parts.append(f"{causes or 'no possible cause'} {100.0 * one.probability:.0f} %")
     return ", ".join(parts) if len(parts) > 1 else "one hypothesis"
 
@@ -188,14 +136,6 @@ def _words(candidate: Candidate) -> str:
     if place is None:
         return words
     return f"{words} of {specimen_named(place)}" if isinstance(place, str) else f"{words} at {place:g} degC"
-
-
-def _common(diagnosis: Diagnosis) -> tuple[Joint, Fitted]:
-    return diagnosis.common or (diagnosis.ladder.joint, diagnosis.ladder.fitted)
-
-
-def _logarithm(modulus: Complex) -> Complex:
-    return np.log(np.abs(modulus)) + 1j * np.angle(modulus)
 
 
 def standard_errors(slope: NDArray[np.float64], covariance: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -111,15 +111,19 @@ def master_curve(mix: Mixture, at: float | None = None, law: LawOfMix | None = N
 
 
 def corrected(diagnosis: Diagnosis, whole: Observations, mix: Mixture, record: pd.DataFrame) -> pd.DataFrame:
-    """Each test as recorded and less what is established (NaN if it was left out), with its record."""
+    """Each test as recorded and less the faults that are established (NaN if it was left out), with its record.
+
+    What the mix does itself stays in the tests, however sure it is.
+    """
     ladder, used = diagnosis.ladder, record["status"].to_numpy() != LEFT_OUT
     sure = {rung.candidate.key for rung in ladder.rungs if diagnosis.established(rung)}
-    active = tuple(one for one in ladder.fitted.active if one.key in sure)
+    active = tuple(one for one in ladder.fitted.active if one.key in sure and one.cause.alters_tests)
     law = ladder.fitted.law
     after = np.full(whole.size, np.nan + 0j)
     shown = ladder.joint.apparent(law, active)[0] / ladder.joint.apparent(law, ())[0]
     after[used] = diagnosis.observed.modulus / shown
-    possible = [rung.candidate for rung in ladder.rungs if rung.candidate.key not in sure]
+    taken = {one.key for one in active}
+    left = [rung.candidate for rung in ladder.rungs if rung.candidate.key not in taken]
     shift = mix.base.log_shift(mix.law, whole.temperature)[0]
     return pd.DataFrame(
         {
@@ -132,7 +136,7 @@ def corrected(diagnosis: Diagnosis, whole: Observations, mix: Mixture, record: p
             "recorded_phase_deg": np.degrees(np.angle(whole.modulus)),
             "reduced_frequency_Hz": whole.frequency * np.exp(shift),
             "corrected_for": list(_at_each(whole, used, active)),
-            "possible_and_not_corrected": list(_at_each(whole, used, possible)),
+            "not_corrected_for": list(_at_each(whole, used, left)),
             "status": record["status"],
             # No semicolon, which a reader of the file might take for the mark between columns.
             "reasons": [", ".join(one).replace("; ", ", ") for one in record["reasons"]],

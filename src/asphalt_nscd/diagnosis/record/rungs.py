@@ -10,7 +10,6 @@ from asphalt_nscd.diagnosis.criteria import CONFIDENCE
 from asphalt_nscd.diagnosis.model.bases import LN10, FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.heldout import HeldOut
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted
-from asphalt_nscd.diagnosis.record.mixture import shares
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.search.ladder import Rung
 from asphalt_nscd.diagnosis.simulation import gain
@@ -40,7 +39,7 @@ def cause_rung(
         "probability": diagnosis.probability(rung),
         "as_good": [name_at(*rival.key) for rival in rung.rivals],
         "established": diagnosis.established(rung),
-        "taken_off": shares(diagnosis, rung)[0][0],
+        "taken_off": diagnosis.share(rung),
         "hangs_on": diagnosis.ladder.hangs_on.get(rung.candidate.key, []),
         "doubts": diagnosis.doubts.get(rung.candidate.key, []),
         "log10_shift": {},

@@ -79,18 +79,19 @@ class Diagnosis:
 
     @cached_property
     def hypotheses(self) -> list[Hypothesis]:
-        """Explanations that the table leaves open, the likeliest first; one alone where all that is named is sure."""
-        stated_of = {rung.candidate.key: self.probability(rung) for rung in self.ladder.rungs}
-        return hypotheses(self.ladder, stated_of)
+        """Explanations that the table leaves open, the likeliest first; what is established holds in each."""
+        if self.common is not None:
+            return [Hypothesis(1.0, *self.common)]
+        probabilities = {
+            rung.candidate.key: 1.0 if self.established(rung) else self.probability(rung)
+            for rung in self.ladder.rungs
+        }
+        return hypotheses(self.ladder, probabilities)
 
-    def taken_off(self, rung: Rung) -> bool:
-        """Whether law.json is free of a cause, and the extended simulation holds it.
-
-        What the table itself speaks against stays in the data, and what the mix does itself: not where a rival fits as
-        well, where there are doubts, or where it hangs on one isotherm, frequency or specimen.
-        """
-        alters = rung.candidate.cause.alters_tests and not self._as_mixes_do(rung)
-        return alters and self._undisputed(rung)
+    def share(self, rung: Rung) -> float:
+        """Probability of the explanations that hold a name: by so much of it is what is told of the mix free."""
+        key = rung.candidate.key
+        return sum(one.probability for one in self.hypotheses if key in {cause.key for cause in one.causes})
 
     def _as_mixes_do(self, rung: Rung) -> bool:
         """Whether a fault turns phases by no more than mixes that are not linear do."""

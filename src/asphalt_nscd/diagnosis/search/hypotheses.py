@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from asphalt_nscd.diagnosis.model.fit_beside import State, refit_causes
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.observed.observations import Complex, Vector
 from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung
 
-LEAST = 0.03  # probability below which an explanation is left out: none is stated above 0.98
+LEAST = 0.03  # probability below which that a cause is absent is left out: none is stated above 0.98
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,22 @@ class Hypothesis:
     def causes(self) -> tuple[Candidate, ...]:
         """With their values."""
         return self.fitted.active
+
+    def effect(self, every: Joint) -> Complex:
+        """ln (n,) of what the causes do to E* in each test of `every`."""
+        law = self.fitted.law
+        return _logarithm(every.apparent(law, self.causes)[0] / every.apparent(law, ())[0])
+
+    def along(self, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
+        """ln E* (n,) of the mix and its derivative (n, p) by the parameters of the free curve."""
+        modulus, slope = self.joint.base.modulus(self.fitted.law, omega, temperature)
+        return _logarithm(modulus), slope / modulus[:, None]
+
+    @property
+    def covariance(self) -> NDArray[np.float64]:
+        """Of the parameters (p, p) of the free curve."""
+        size = self.fitted.law.size
+        return self.fitted.covariance[:size, :size]
 
 
 def hypotheses(ladder: Ladder, stated: Mapping[tuple, float]) -> list[Hypothesis]:
@@ -46,12 +66,17 @@ def _others(end: State, rungs: list[Rung], stated: Mapping[tuple, float]) -> Ite
         key = rung.candidate.key
         named = stated[key]
         # What is stated of a name is less than the model's: so is what is stated of its rivals.
-        scale = named / max(rung.probability, 1e-9)
+        scale = named / rung.probability
         ways = {rival: share * scale for rival, share in zip(rung.rivals, rung.shares, strict=True)}
         kept = tuple(one for one in end.fitted.active if one.key != key)
         taken = {one.key for one in kept}
-        absent = max(1.0 - named - sum(ways.values()), 0.0)
-        for rival, probability in [*ways.items(), (None, absent)]:
-            if probability >= LEAST and (rival is None or rival.key not in taken):
-                active = kept if rival is None else (*kept, rival)
-                yield probability / max(named, 1e-9), refit_causes(end, active)
+        absent = 1.0 - named - sum(ways.values())
+        for rival, probability in ways.items():
+            if rival.key not in taken:
+                yield probability / named, refit_causes(end, (*kept, rival))
+        if absent >= LEAST:
+            yield absent / named, refit_causes(end, kept)
+
+
+def _logarithm(modulus: Complex) -> Complex:
+    return np.log(np.abs(modulus)) + 1j * np.angle(modulus)

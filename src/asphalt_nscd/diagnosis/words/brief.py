@@ -29,7 +29,7 @@ MOST = 4  # sentences of a row; a reader finds the others in the reasons
 PARTS = 2  # of what stays unexplained
 FEW = 6  # specimens that are named one by one
 _wrapped = partial(wrap, width=WIDTH, break_long_words=False, break_on_hyphens=False)
-AVERAGED = "values of the mix weigh both, with it and without; corrected tests keep it."
+AVERAGED = "values of the mix weigh {}; corrected tests keep it."
 MORE = "{} more: see the reasons."
 TYPE_NOT_GIVEN = (
     "Test type not given: faults of one apparatus alone, such as a moving mass, were not looked for. Say whether it "
@@ -46,11 +46,12 @@ def rows(content: Content, left: Mapping[str, float] | None = None) -> Rows:
     simulated = left is not None or verdict.bonded(content)
     certain, possible = (_told(verdict.faults(content), content, wanted) for wanted in (True, False))
     effects, likely = (_told(verdict.effects(content), content, wanted) for wanted in (True, False))
+    a_fault = bool(possible) or verdict.rivalled_by_a_fault(content)
     found: Rows = [
         ("Tests", _tests(content)),
         ("Note", _notes(content)),
         ("Data", _data(content)),
-        ("Fault", certain or _lack_of_certainty(content, bool(possible), bool(effects))),
+        ("Fault", certain or _lack_of_certainty(content, a_fault, bool(effects))),
         ("Possible fault", possible),
         ("Effect", effects),
         ("Possible effect", likely),
@@ -173,13 +174,15 @@ def _fault(rung: Content, content: Content) -> str:
     meaning = _sentence(rung["sentence"]) if of_the_mix else sentences.meaning(rung).strip()
     said = [_sentence(f"{cause_words(rung)}{everywhere}{f', {size}' * bool(size)}")]
     if not sure(rung):
-        same = [name for name in rung["as_good"] if name.startswith(f"{rung['cause']} @")]
-        others = joined(list(map(sentences.spell_cause, same)), "or")
+        rivals = sentences.rivals(rung, content)
+        ways = joined(["it", *rivals, "neither" if len(rivals) == 1 else "none of them"])
+        weighed = f"{ways}, by probability" if rivals else "both, with it and without"
         said += [f"If so, {meaning[:1].lower()}{meaning[1:]}"] * bool(meaning)
-        said += [f"Not certain: {others} fits as well."] * bool(same)
-        said.append(f"Its probability is {sentences.probability(rung)}: {AVERAGED}")
+        said += [f"Not certain: {joined(rivals, 'or')} fits as well."] * bool(rivals)
+        said.append(f"Its probability is {sentences.probability(rung)}: {AVERAGED.format(weighed)}")
     elif of_the_mix:
-        said += [meaning, "law.json is free of it." * (content["law_misses"] is not None)]
+        free = "law.json is free of it" + "; corrected tests keep it" * (not verdict.taken_off(rung))
+        said += [meaning, f"{free}." * (content["law_misses"] is not None)]
     else:
         correction = verdict.correction(rung)
         said += [meaning, f"Correction: {correction}." * bool(correction)]
@@ -341,8 +344,7 @@ def _law(content: Content, left: Mapping[str, float] | None, simulated: bool) ->
     ]
     if sentences.alone(content):
         said.append("Without replicates nobody knows how much of that is scatter.")
-    named = [*verdict.faults(content), *verdict.effects(content)]
-    corrected = any(map(sure, named))
+    corrected = any(sure(rung) and verdict.taken_off(rung) for rung in content["ladder"])
     out = verdict.held_back(content)
     doubtful = content["trust"]["check"] and not out
     but = " but those left out" * bool(unused_tests(content))

@@ -197,12 +197,18 @@ def _sure(rung: Content, content: Content) -> str:
     return f"Established{likely}: the chance that scatter alone produces it is {chance}."
 
 
+def rivals(rung: Content, content: Content) -> list[str]:
+    """Causes, none of them named, that fit as well as a name, in words."""
+    known = {written.name_at(one["cause"], one["where"]) for one in content["ladder"]}
+    return [spell_cause(name) for name in rung["as_good"] if name not in known]
+
+
 def _doubts(rung: Content, content: Content) -> list[str]:
     """Why a name is not certain, a sentence each without its full stop."""
     doubts = []
-    known = {written.name_at(one["cause"], one["where"]) for one in content["ladder"]}
-    also = joined([spell_cause(name) for name in rung["as_good"] if name in known])
-    others = joined([spell_cause(name) for name in rung["as_good"] if name not in known], "or")
+    fit_as_well = rivals(rung, content)
+    others = joined(fit_as_well, "or")
+    also = joined([name for name in map(spell_cause, rung["as_good"]) if name not in fit_as_well])
     if others:
         doubts.append(f"{others} fits as well; these tests do not say which")
     if also:

@@ -24,6 +24,7 @@ from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
 TESTS_OF = TEST_TYPES | {UNKNOWN: "tests of a kind that was not said"}
 EFFECTS = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to}
+ALTERING = {cause.name for cause in CATALOGUE if cause.alters_tests}
 OF_THE_MIX = EFFECTS | {LAW, BOND_MAPPING}
 SIMPLER = "one Burgers law for each temperature"
 COMMON = "the free master curve"  # the name of the law of the diagnosis; the other is called law.json
@@ -57,6 +58,17 @@ def faults(content: Content) -> list[Content]:
 def effects(content: Content) -> list[Content]:
     """Named effects of the mix itself beside its relaxation: what it does while it is tested, in the ladder's order."""
     return [rung for rung in content["ladder"] if rung["cause"] in EFFECTS]
+
+
+def rivalled_by_a_fault(content: Content) -> bool:
+    """Whether a fault of the tests fits as well as an effect that is named."""
+    rivals = (name for rung in effects(content) for name in rung["as_good"])
+    return any(name.partition(" @ ")[0] not in OF_THE_MIX for name in rivals)
+
+
+def taken_off(rung: Content) -> bool:
+    """Whether corrected.csv is free of a cause once it is established: what a mix does itself stays in it."""
+    return rung["cause"] in ALTERING
 
 
 def correction(rung: Content) -> str:
@@ -110,9 +122,13 @@ def two_laws(content: Content) -> list[str]:
     misses = content["law_misses"]
     if misses is None or not named(content, LAW) or bonded(content):
         return []
-    unsure = [_noun(rung) for rung in [*faults(content), *effects(content)] if not rung["established"]]
+    open_to_doubt = [rung for rung in [*faults(content), *effects(content)] if not rung["established"]]
+    unsure = [_noun(rung) for rung in open_to_doubt]
     are, them = ("is", "it") if len(unsure) == 1 else ("are", "them")
-    weighed = f"{are} not certain: law.json is the mean with {them} and without, by their probability."
+    rivals = ", with what fits as well" * any(sentences.rivals(rung, content) for rung in open_to_doubt)
+    weighed = (
+        f"{are} not certain: law.json is the mean with {them}{rivals} and without, by their probability."
+    )
     doubtful = f" {joined(unsure).capitalize()} {weighed}" * bool(unsure)
     out = held_back(content)
     fewer = f", those of law.json without {joined(out)}" if out else ""

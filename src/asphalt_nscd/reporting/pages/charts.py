@@ -128,8 +128,8 @@ def _law(master: fig_master.Master) -> Chart:
     caption = "Tests as they were measured, before any correction."
     if master.law is not None:
         caption += (
-            " Law: of the mix, without named causes; its band holds what scatter, specimens, causes and its form leave"
-            " open."
+            " Law: of the mix, without established causes, the mean with possible ones and without; its band holds"
+            " what scatter, specimens, causes and its form leave open."
         )
     if not master.shift:
         caption += " No law common to all temperatures was taken, so there are no shift factors."

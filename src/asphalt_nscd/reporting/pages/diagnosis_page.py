@@ -223,6 +223,7 @@ def _rung(rung: Mapping[str, Any], content: Mapping[str, Any]) -> dict[str, Any]
         "p": _chance(rung["p_value"]),
         "evidence": rung["evidence"],
         "parameters": [_estimate(name, value, factor) for name, value in rung["parameters"].items()],
+        "established": rung["established"],
         "hangs_on": rung["hangs_on"],
         "doubts": rung["doubts"],
         "in_sample": _gain(gain["in_sample"]),
