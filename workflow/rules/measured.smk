@@ -1,5 +1,5 @@
 # Measured mixes: laws of them, and the phase that no law explains beside what a machine reads of a haversine, grains that
-# slip and films that soften. Ten CPU minutes. On request:
+# slip and films that soften. Fifteen CPU minutes. On request:
 #   snakemake measured --cores all --configfile config/paper.yaml
 
 MIXES = sorted(f"data/ncat/{path.name}" for path in (CLONE / "data/ncat").glob("*_*.csv"))
@@ -104,7 +104,7 @@ rule measured_cylinder:
 
 
 rule measured_ladder:
-    """Burgers laws, one law, that law as it is tested: in sample, of what was left out, and simulated. Five minutes."""
+    """Burgers laws, one law, that law as it is tested: in sample, of what was left out, and simulated. Nine minutes."""
     input:
         **MECHANISMS,
         mixes=MIXES,
