@@ -1,4 +1,4 @@
-"""What grains that slip, and films that soften, change in a test of a mix, from the tables made before any was seen."""
+"""What grains that slip, and films that soften, change in a test of a mix, from tables made without one."""
 
 from typing import Any
 
@@ -8,6 +8,7 @@ import pandas as pd
 from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
 
 Vector = np.ndarray
+NAMES = "contacts", "binder", "clock"
 
 
 class Mechanisms:
@@ -18,19 +19,18 @@ class Mechanisms:
     """
 
     def __init__(self, tables: Any) -> None:
-        """tables: the files `contacts`, `binder` and `clock`, as attributes."""
-        names = "contacts", "binder", "clock"
-        self.contact, self.binder, self.clock = (pd.read_csv(getattr(tables, name)) for name in names)
+        """tables: the files NAMES, as attributes."""
+        self.contact, self.binder, self.clock = (pd.read_csv(getattr(tables, name)) for name in NAMES)
+
+    def usual(self, amplitude: float) -> pd.DataFrame:
+        """Haversines of this amplitude of strain under the stated pressure and friction."""
+        of = self.contact
+        stated = (of["haversine"] == 1) & (of["pressure_kPa"] == 10.0) & (of["friction"] == 0.5)
+        return of[stated & np.isclose(of["amplitude_1e6"], 1e6 * amplitude)]
 
     def contacts(self, modulus: Vector, amplitude: float) -> Vector:
         """ln of what is read over E* (n,) [Pa], by grains that slip and open, at an amplitude of strain."""
-        of = self.contact
-        usual = of[
-            np.isclose(of["amplitude_1e6"], 1e6 * amplitude)
-            & (of["haversine"] == 1)
-            & (of["pressure_kPa"] == 10.0)
-            & (of["friction"] == 0.5)
-        ]
+        usual = self.usual(amplitude)
         phase = np.degrees(np.angle(modulus))
         levels, changes = [], []
         for _, row in usual.groupby((np.log(usual["E_MPa"]) / 0.1).round()):

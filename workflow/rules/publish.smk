@@ -62,7 +62,7 @@ PUBLISHED = {
         "measured",
         [
             *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png", "provenance.json"),
-            "amplitude.csv",
+            *("amplitude.csv", "contacts.csv", "binder.csv", "clock.csv", "first.csv"),
         ],
         {"measured_means": "means.csv", "excess_budget": "budget.csv", "measured_amplitude": "amplitude.csv"},
     ),

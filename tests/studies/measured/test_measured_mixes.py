@@ -24,7 +24,7 @@ from studies.measured.reading import PROGRAMME
 from studies.measured.simulated import modulus_of_cylinder
 
 LAW = TwoS2P1D(150e6, 28e9, k=0.2, h=0.6, delta=2.3, tau=0.02, beta=300.0, shift=WLF(17.0, 150.0, 20.0))
-PREDICTED = Path(__file__).parents[3] / "studies/measured/predictions"
+PREDICTED = Path(__file__).parents[3] / "results/published/measured"
 MECHANISMS = Mechanisms(
     SimpleNamespace(**{name: PREDICTED / f"{name}.csv" for name in ("contacts", "binder", "clock")})
 )
