@@ -246,7 +246,8 @@ def test_a_sweep_that_was_asked_for_lowers_the_standard_error_as_promised(empty)
         wider = diagnose(_with(found.observed, one.specimen, one.temperature, one.frequencies), draws=1000)
         after[one.temperature] = wider.ladder.estimates["temperature_bias", 30.0][1]
         promised = before * np.sqrt(known.information[k, k] / (known.information[k, k] + gained))
-        assert after[one.temperature] == pytest.approx(promised, rel=0.1)  # the sweep adds its own scatter
+        # The sweep adds its own scatter, and with it the errors of the laboratory are sized anew.
+        assert after[one.temperature] == pytest.approx(promised, rel=0.2)
     assert after[best.temperature] < 0.8 * after[least.temperature]
 
 
