@@ -46,6 +46,7 @@ PUBLISHED = (
     "faults",
     "forecast",
     "fuzz",
+    "intervals",
     "layouts",
     "mapping",
     "measured",
