@@ -181,6 +181,8 @@ rule reported_intervals:
         "results/intervals/logs/intervals.log",
     benchmark:
         "<results>/benchmarks/intervals.tsv"
+    conda:
+        ENVIRONMENT
     params:
         program=f"env PYTHONPATH={CLONE / 'trials'}:${{PYTHONPATH-}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m extrapolation",
         size="10 100 --seed 20281128",
