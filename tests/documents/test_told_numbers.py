@@ -113,7 +113,7 @@ def test_errors_of_temperatures_that_were_left_out():
         for q in ("E", "phase")
     ]
     assert f"errors are {told[0]} of |E\\*| and {told[1]} of the phase" in page("results")
-    assert table.mre_E_simulated_percent.isna().all() and "No measured mix was simulated" in page("results")
+    assert table.mre_E_simulated_percent.isna().all() and "(measured.md), also simulated" in page("results")
 
 
 def test_what_a_percent_of_air_costs():
