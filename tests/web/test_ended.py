@@ -52,7 +52,9 @@ def until(gone) -> bool:
 def test_nothing_is_left(way, tmp_path):
     environment = os.environ | {"TMPDIR": str(tmp_path), "PYTHONUNBUFFERED": "1"}
     command = [sys.executable, "-m", "asphalt_nscd.cli", "serve", "--no-browser"]
-    server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
+    # A shell's background jobs ignore an interrupt, and so would what they start.
+    attended = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.SIG_DFL)}
+    server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment, **attended)
     token = re.search(r"http://\S+", server.stdout.readline()).group()
     desk = urllib.request.urlopen(token).geturl()
     head = '--x\r\nContent-Disposition: form-data; name="files"; filename="t.csv"\r\n\r\n'
