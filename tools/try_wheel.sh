@@ -26,10 +26,10 @@ try() { (
     programs=$place/venv/bin
     [ -d "$programs" ] || programs=$place/venv/Scripts # on Windows
     "$uv" pip install --quiet --python "$programs/python" --constraint "$place/locked.txt" "$dist"/asphalt_nscd-*.whl
-    rm -rf "$place/work"
-    mkdir "$place/work"
-    cp -r "$repository/data/tutorial/exports" "$place/work/exports"
-    cd "$place/work"
+    rm -rf "$place/desk"
+    mkdir "$place/desk"
+    cp -r "$repository/data/tutorial/exports" "$place/desk/exports"
+    cd "$place/desk"
     unset PYTHONPATH
     PATH="$programs:/usr/bin:/bin"
     python -c "import importlib.util as u; assert not any(map(u.find_spec, ('snakemake', 'numba'))), 'an extra came along'"

@@ -26,13 +26,25 @@ def _require_one(name: str, force: float | None, displacement: float | None) -> 
         raise InputError(f"{name}: nothing moves; give a force or a displacement other than zero.")
 
 
-def _band(duration: float, time_step: float) -> tuple[float, float]:
-    """Frequencies [Hz] 1 / (2 pi t) at the last and at the first time t [s]."""
-    return 0.5 / math.pi / duration, 0.5 / math.pi / time_step
+class _InEqualSteps(Ranged):
+    """What a hold and a ramp share."""
+
+    duration_s: float
+    steps: int
+
+    @property
+    def time_step(self) -> float:
+        """Length of a step [s]."""
+        return self.duration_s / self.steps
+
+    @property
+    def band(self) -> tuple[float, float]:
+        """Frequencies [Hz] that a law must hold for: 1 / (2 pi t) at the last and at the first time t."""
+        return 0.5 / math.pi / self.duration_s, 0.5 / math.pi / self.time_step
 
 
 @dataclass(frozen=True)
-class Hold(Ranged):
+class Hold(_InEqualSteps):
     """What is held, for how long, in how many equal steps.
 
     Parameters
@@ -66,31 +78,9 @@ class Hold(Ranged):
         super().__post_init__()
         _require_one("hold", self.force_N, self.displacement_m)
 
-    @property
-    def time_step(self) -> float:
-        """Length of a step.
-
-        Returns
-        -------
-        float
-            [s].
-        """
-        return self.duration_s / self.steps
-
-    @property
-    def band(self) -> tuple[float, float]:
-        """Frequencies that a law must hold for.
-
-        Returns
-        -------
-        tuple of float
-            [Hz]: 1 / (2 pi t) at the last and at the first time t.
-        """
-        return _band(self.duration_s, self.time_step)
-
 
 @dataclass(frozen=True)
-class Ramp(Ranged):
+class Ramp(_InEqualSteps):
     """How a specimen is pulled or pushed at constant speed until it fails, and on.
 
     Parameters
@@ -126,28 +116,6 @@ class Ramp(Ranged):
     def __post_init__(self) -> None:
         super().__post_init__()
         _require_one("ramp", self.force_N, self.displacement_m)
-
-    @property
-    def time_step(self) -> float:
-        """Length of a step.
-
-        Returns
-        -------
-        float
-            [s].
-        """
-        return self.duration_s / self.steps
-
-    @property
-    def band(self) -> tuple[float, float]:
-        """Frequencies that a law must hold for.
-
-        Returns
-        -------
-        tuple of float
-            [Hz]: 1 / (2 pi t) at the last and at the first time t.
-        """
-        return _band(self.duration_s, self.time_step)
 
 
 @dataclass(frozen=True)
