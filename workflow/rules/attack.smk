@@ -56,54 +56,41 @@ rule attack_tables:
         ATTACK_COMMAND + " tables {input.lines} {params.before} --folder results/attack > {log} 2>&1"
 
 
-rule attack_machines:
-    """An offset that no campaign of a machine shows alone, and what NCAT's campaigns share: six minutes of one core."""
-    input:
-        code=code("diagnose", *modules_of("diagnosis.causes")),
-        generator=ATTACK_CODE,
-    output:
-        rows="results/attack/machines.csv",
-        summary="results/attack/machines_summary.csv",
-        measured="results/attack/machine_measured.csv",
-    log:
-        "results/attack/logs/machines.log",
-    params:
-        number=MACHINES,
-    message:
-        "Pool the campaigns of {params.number} machines"
-    shell:
-        ATTACK_COMMAND + " machines {params.number} --folder results/attack > {log} 2>&1"
+# Subcommand: what it does, its option, its tables.
+for name, (told, more, tables) in {
+    "machines": (  # and what NCAT's campaigns share: six minutes of one core
+        "Look for an offset that no campaign of a machine shows alone",
+        MACHINES,
+        ("machines", "machines_summary", "machine_measured"),
+    ),
+    "nonlinear": (  # six minutes of one core
+        "Tell mixes that are not linear where they are soft from true offsets of the phase",
+        "",
+        ("nonlinear", "nonlinear_summary"),
+    ),
+    "power": (  # ten minutes of one core
+        "Say how small a fault is named in usual campaigns, and of a careful laboratory",
+        "",
+        ("power", "power_limits", "power_cases", "power_summary"),
+    ),
+}.items():
 
-
-rule attack_nonlinear:
-    """Mixes that are not linear where they are soft, and true offsets of the phase: six minutes of one core."""
-    input:
-        code=code("diagnose", *modules_of("diagnosis.causes")),
-        generator=ATTACK_CODE,
-    output:
-        rows="results/attack/nonlinear.csv",
-        summary="results/attack/nonlinear_summary.csv",
-    log:
-        "results/attack/logs/nonlinear.log",
-    message:
-        "Tell mixes that are not linear from offsets of the phase"
-    shell:
-        ATTACK_COMMAND + " nonlinear --folder results/attack > {log} 2>&1"
-
-
-rule attack_power:
-    """Sizes at which causes are named in usual campaigns, and of a careful laboratory: ten minutes of one core."""
-    input:
-        code=code("diagnose", *modules_of("diagnosis.causes")),
-        generator=ATTACK_CODE,
-    output:
-        multiext("results/attack/power", ".csv", "_limits.csv", "_cases.csv", "_summary.csv"),
-    log:
-        "results/attack/logs/power.log",
-    message:
-        "Say how small a fault is named in usual campaigns"
-    shell:
-        ATTACK_COMMAND + " power --folder results/attack > {log} 2>&1"
+    rule:
+        name:
+            f"attack_{name}"
+        input:
+            code=code("diagnose", *modules_of("diagnosis.causes")),
+            generator=ATTACK_CODE,
+        output:
+            [f"results/attack/{table}.csv" for table in tables],
+        log:
+            f"results/attack/logs/{name}.log",
+        params:
+            command=f"{name} {more}",
+        message:
+            told
+        shell:
+            ATTACK_COMMAND + " {params.command} --folder results/attack > {log} 2>&1"
 
 
 rule attack_inside:

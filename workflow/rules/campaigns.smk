@@ -37,9 +37,20 @@ class Made(NamedTuple):
         return start + fill(command, wildcards=wildcards, input=input, output=output, threads=threads)
 
 
+class Scripted(NamedTuple):
+    """What one script of studies/ makes."""
+
+    message: str
+    script: str
+    output: dict
+    input: dict = {}
+    threads: int = 1
+
+
 MEASURE = f"env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 NUMBA_NUM_THREADS=1 {sys.executable} benchmarks"
 # Of each by its name:
 MADE = {}
+SCRIPTED = {}
 SHOWN = {}  # step and what it shows, its file less the ending of a figure, {kind of data: files}
 RECORDED = {}  # folder of a campaign, and what is made before what made it is written down
 
@@ -86,6 +97,31 @@ for name, made in MADE.items():
             made.message
         shell:
             "{params.command} > {log} 2>&1"
+
+
+for name, made in SCRIPTED.items():
+
+    rule:
+        name:
+            name
+        input:
+            **made.input,
+            code=studied(made.script.replace("/", ".")),
+        output:
+            **made.output,
+        log:
+            f"results/{made.script.split('/')[0]}/logs/{name}.log",
+        benchmark:
+            f"<results>/benchmarks/{name}.tsv"
+        conda:
+            ENVIRONMENT
+        threads: made.threads
+        params:
+            script=made.script,
+        message:
+            made.message
+        script:
+            SCRIPT
 
 
 for name, (shown, target, files) in SHOWN.items():

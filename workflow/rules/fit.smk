@@ -68,11 +68,11 @@ rule scale_law:
     conda:
         ENVIRONMENT
     params:
-        script="scale_law",
+        script="paper/scale_law",
     message:
         "Law at {wildcards.temperature} degC with {wildcards.parameter} times {wildcards.factor}"
     script:
-        SCRIPT_OF_PAPER
+        SCRIPT
 
 
 use rule published_law as pascal_law with:

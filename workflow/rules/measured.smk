@@ -4,168 +4,58 @@
 
 MIXES = sorted(f"data/ncat/{path.name}" for path in (CLONE / "data/ncat").glob("*_*.csv"))
 MECHANISMS = {name: f"results/measured/{name}.csv" for name in ("contacts", "binder", "clock")}
+FIGURE_OF_EXCESS = multiext("results/measured/figures/fig_excess", ".pdf", ".png", ".svg")
+CYLINDER = {
+    name: f"results/measured/{file}.h5" for name, file in {"model": "cylinder", "excerpt": "cylinder_excerpt"}.items()
+}
 
-
-rule measured_contacts:
-    """Poured stones that touch, open and slip, over modulus and phase of a mix; no mix is looked at. Three minutes."""
-    input:
-        code=studied("measured.contacts"),
-    output:
-        MECHANISMS["contacts"],
-    log:
-        "results/measured/logs/contacts.log",
-    benchmark:
-        "<results>/benchmarks/measured_contacts.tsv"
-    conda:
-        ENVIRONMENT
-    threads: 4
-    message:
-        "Press stones that touch"
-    script:
-        "../../studies/measured/contacts.py"
-
-
-rule measured_softening:
-    """Binders by the published limit of their linear strain, and a clock that runs faster under stress."""
-    input:
-        recipe=RECIPE,
-        code=studied("measured.softening"),
-    output:
-        binder=MECHANISMS["binder"],
-        clock=MECHANISMS["clock"],
-    log:
-        "results/measured/logs/softening.log",
-    benchmark:
-        "<results>/benchmarks/measured_softening.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Soften binder films"
-    script:
-        "../../studies/measured/softening.py"
-
-
-rule measured_first:
-    """How far both lie from what was first predicted, of other stones, before they were laid beside a mix."""
-    input:
-        **MECHANISMS,
-        first=[f"studies/measured/predictions/{name}.csv" for name in MECHANISMS],
-        code=studied("measured.first"),
-    output:
-        "results/measured/first.csv",
-    log:
-        "results/measured/logs/first.log",
-    benchmark:
-        "<results>/benchmarks/measured_first.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Lay the mechanisms beside their first prediction"
-    script:
-        "../../studies/measured/first.py"
-
-
-rule measured_amplitude:
-    """What a larger strain does, measured by two laboratories and predicted."""
-    input:
-        **MECHANISMS,
-        code=studied("measured.amplitude"),
-    output:
-        "results/measured/amplitude.csv",
-    log:
-        "results/measured/logs/amplitude.log",
-    benchmark:
-        "<results>/benchmarks/measured_amplitude.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Lay the mechanisms beside tests at several strains"
-    script:
-        "../../studies/measured/amplitude.py"
-
-
-rule measured_cylinder:
-    """A cylinder of full size with facets, for the laws of all mixes."""
-    input:
-        code=studied("measured.cylinder"),
-    output:
-        model="results/measured/cylinder.h5",
-        excerpt="results/measured/cylinder_excerpt.h5",
-    log:
-        "results/measured/logs/cylinder.log",
-    benchmark:
-        "<results>/benchmarks/measured_cylinder.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Pour a cylinder of full size"
-    script:
-        "../../studies/measured/cylinder.py"
-
-
-rule measured_ladder:
-    """Burgers laws, one law, that law as it is tested: in sample, of what was left out, and simulated. Nine minutes."""
-    input:
-        **MECHANISMS,
-        mixes=MIXES,
-        model=rules.measured_cylinder.output.model,
-        excerpt=rules.measured_cylinder.output.excerpt,
-        code=studied("measured.ladder"),
-    output:
-        ladder="results/measured/ladder.csv",
-        means="results/measured/means.csv",
-    log:
-        "results/measured/logs/ladder.log",
-    benchmark:
-        "<results>/benchmarks/measured_ladder.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Fit laws to nine measured mixes"
-    script:
-        "../../studies/measured/ladder.py"
-
-
-rule measured_excess:
-    """By mix, temperature and frequency; and, by population and temperature, what three mechanisms explain."""
-    input:
-        **MECHANISMS,
-        ncat=MIXES,
-        mixes="data/mixes50/modulus.csv",
-        code=studied("measured.excess"),
-    output:
-        excess="results/measured/excess.csv",
-        budget="results/measured/budget.csv",
-    log:
-        "results/measured/logs/excess.log",
-    benchmark:
-        "<results>/benchmarks/measured_excess.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Lay three mechanisms beside the excess phase of measured mixes"
-    script:
-        "../../studies/measured/excess.py"
-
-
-rule fig_excess:
-    """The excess phase by temperature, and its parts."""
-    input:
-        excess="results/measured/excess.csv",
-        budget="results/measured/budget.csv",
-        code=studied("measured.fig_excess"),
-    output:
-        multiext("results/measured/figures/fig_excess", ".pdf", ".png", ".svg"),
-    log:
-        "results/measured/logs/fig_excess.log",
-    benchmark:
-        "<results>/benchmarks/fig_excess.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Draw the excess phase of measured mixes"
-    script:
-        "../../studies/measured/fig_excess.py"
+SCRIPTED |= {
+    "measured_contacts": Scripted(
+        "Press poured stones that touch, open and slip; no mix is looked at: three minutes",
+        "measured/contacts",
+        {"table": MECHANISMS["contacts"]},
+        threads=4,
+    ),
+    "measured_softening": Scripted(
+        "Soften binder films by the published limit of their linear strain, and run a clock faster under stress",
+        "measured/softening",
+        {name: MECHANISMS[name] for name in ("binder", "clock")},
+        {"recipe": RECIPE},
+    ),
+    "measured_first": Scripted(
+        "Lay the mechanisms beside what was first predicted, of other stones, before they were laid beside a mix",
+        "measured/first",
+        {"table": "results/measured/first.csv"},
+        MECHANISMS | {"first": [f"studies/measured/predictions/{name}.csv" for name in MECHANISMS]},
+    ),
+    "measured_amplitude": Scripted(
+        "Lay the mechanisms beside tests of two laboratories at several strains",
+        "measured/amplitude",
+        {"table": "results/measured/amplitude.csv"},
+        MECHANISMS,
+    ),
+    "measured_cylinder": Scripted(
+        "Pour a cylinder of full size with facets, for the laws of all mixes", "measured/cylinder", CYLINDER
+    ),
+    "measured_ladder": Scripted(
+        "Fit Burgers laws and one law to nine measured mixes, in sample and of what was left out: nine minutes",
+        "measured/ladder",
+        {name: f"results/measured/{name}.csv" for name in ("ladder", "means")},
+        MECHANISMS | CYLINDER | {"mixes": MIXES},
+    ),
+    "measured_excess": Scripted(
+        "Lay three mechanisms beside the excess phase of measured mixes",
+        "measured/excess",
+        {name: f"results/measured/{name}.csv" for name in ("excess", "budget")},
+        MECHANISMS | {"ncat": MIXES, "mixes": "data/mixes50/modulus.csv"},
+    ),
+    "fig_excess": Scripted(
+        "Draw the excess phase of measured mixes by temperature, and its parts",
+        "measured/fig_excess",
+        dict(zip(("pdf", "png", "svg"), FIGURE_OF_EXCESS)),
+        {name: f"results/measured/{name}.csv" for name in ("excess", "budget")},
+    ),
+}
 
 
 rule reported_intervals:

@@ -19,11 +19,11 @@ for name, data in PAPER_TABLES.items():
         conda:
             ENVIRONMENT
         params:
-            script=name,
+            script=f"paper/{name}",
         message:
             f"Make {name}"
         script:
-            SCRIPT_OF_PAPER
+            SCRIPT
 
 
 if "fig_readings" in FIGURES:
@@ -51,8 +51,8 @@ if "fig_readings" in FIGURES:
         conda:
             ENVIRONMENT
         params:
-            script="fig_readings",
+            script="paper/fig_readings",
         message:
             "Draw fig_readings"
         script:
-            SCRIPT_OF_PAPER
+            SCRIPT

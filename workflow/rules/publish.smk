@@ -138,22 +138,9 @@ if ATTACK:
             *(f"{name}.csv" for name in ATTACK_TABLES),
             "figures/reliability.png",
             "campaign.json",
-            *(
-                f"{name}.csv"
-                for name in (
-                    "machines",
-                    "machines_summary",
-                    "machine_measured",
-                    "inside",
-                    "inside_summary",
-                    "nonlinear",
-                    "nonlinear_summary",
-                    "power",
-                    "power_limits",
-                    "power_cases",
-                    "power_summary",
-                )
-            ),
+            *("machines.csv", "machines_summary.csv", "machine_measured.csv", "inside.csv", "inside_summary.csv"),
+            *("nonlinear.csv", "nonlinear_summary.csv"),
+            *("power.csv", "power_limits.csv", "power_cases.csv", "power_summary.csv"),
         ],
         {
             "attack": "summary.csv",

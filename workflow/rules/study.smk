@@ -150,7 +150,7 @@ if not CLONE:
 
 
 # By a parameter: Snakemake asks for a script when its job starts, and a loop over rules has then ended.
-SCRIPT_OF_PAPER = str(SCRIPTS / "studies/paper/{params.script}.py")
+SCRIPT = str(SCRIPTS / "studies/{params.script}.py")
 
 
 def studied(name):
