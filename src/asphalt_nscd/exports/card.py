@@ -147,7 +147,7 @@ class Card:
         )
 
     def text(self, template: str) -> str:
-        """The card by a template of the folder templates, in which `comment` makes comments of the statements."""
+        """The card by a template of this folder, in which `comment` makes comments of the statements."""
         series = self.series
         return (
             _templates()
@@ -168,7 +168,7 @@ class Card:
 @cache
 def _templates() -> Environment:
     made = Environment(
-        loader=PackageLoader("asphalt_nscd.exports", "templates"),
+        loader=PackageLoader("asphalt_nscd", "exports"),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
