@@ -17,7 +17,8 @@ from asphalt_nscd.table_import.words import SAY, SPREAD
 
 SPECIMEN, CELSIUS, FAHRENHEIT, HERTZ = "specimen", "T (°C)", "T (°F)", "f (Hz)"
 MEAN = "Mean"  # in place of a specimen
-KEYS = ("temperature_C", "nominal_temperature_C", "frequency_Hz", "nominal_frequency_Hz")
+TEMPERATURES = ("temperature_C", "nominal_temperature_C")
+KEYS = (*TEMPERATURES, "frequency_Hz", "nominal_frequency_Hz")
 LABELS = ("specimen", "replicate", "mix", "origin")
 _BEFORE = (
     r"(?:(?:\b(?:at|à|bei|for|für|temperature|température|temperatur|temp|frequency|fréquence|frequenz|freq|[Tfθ])\b\.?"
@@ -55,10 +56,14 @@ class Heading:
         return known(self.name)
 
     @property
+    def quantity(self) -> str:
+        """Our column for it; empty if none is known."""
+        return quantity_of(self.name)
+
+    @property
     def is_result(self) -> bool:
         """Whether it names what a test gives, and no temperature, frequency or label."""
-        column = self.column
-        return column is not None and column.quantity not in (*KEYS, *LABELS)
+        return self.quantity not in ("", *KEYS, *LABELS)
 
 
 # Each cell of a file is understood once, and asked for several times.
@@ -69,6 +74,12 @@ def known(name: str) -> Meaning | None:
         return recognise(name) if name else None
     except InputError:  # `understand` refuses it
         return None
+
+
+def quantity_of(name: str) -> str:
+    """Our column for a name; empty if it is none that is known."""
+    column = known(name)
+    return "" if column is None else column.quantity
 
 
 @lru_cache(maxsize=2**14)

@@ -26,12 +26,13 @@ if TYPE_CHECKING:
     from asphalt_nscd.table_import.cells import Cells
 
 MOST_MEMORY = 4 * 2**30  # bytes of addresses
-SECONDS_TO_READ = 60.0
+SECONDS_TO_READ = 180.0  # of a machine with other work
 SECONDS_TO_DIAGNOSE = 900.0
 ROWS_SHOWN = 6
 MOST_ROWS_OF_EXCEL = 1_048_576
 MOST_UNPACKED = 50_000_000  # bytes
 TOO_LONG = "this took too long; give the table of results of one campaign alone."
+WORDLESS = "the process ended without a word, perhaps for want of memory."
 BROKEN = "this could not be done, and the fault is ours; the terminal of `asphalt-nscd serve` says where."
 
 
@@ -60,32 +61,29 @@ class Job:
         self._until = time.monotonic() + seconds
         self.state, self.stage, self.share = "running", "start", 0.0
         self.result: dict[str, Any] = {}
+        # Each request has a thread: two that look at once would wait for one word.
+        self._lock = threading.RLock()
         self._process.start()
         # While we hold this end too, the pipe would not end when the process does.
         there.close()
 
     def look(self, wait: float = 0.0) -> str:
         """Take what the process said, waiting `wait` [s]; returns running, done, failed or cancelled."""
-        while self.state == "running":
-            if time.monotonic() > self._until:
+        with self._lock:
+            while self.state == "running" and self._pipe.poll(wait):
+                try:
+                    kind, content = self._pipe.recv()
+                except EOFError:
+                    self.stop("failed", WORDLESS)
+                    break
+                if kind == "progress":
+                    self.stage, self.share = content
+                else:
+                    self.state, self.result = kind, content
+                    self._process.join(5.0)
+            if self.state == "running" and time.monotonic() > self._until:
                 self.stop("failed", TOO_LONG)
-                break
-            if not self._pipe.poll(wait):
-                # Its last word may lie in the pipe when it has ended.
-                if not self._process.is_alive() and not self._pipe.poll(0.0):
-                    self.stop("failed", "the process ended without a word, perhaps for want of memory.")
-                break
-            try:
-                kind, content = self._pipe.recv()
-            except EOFError:
-                self.stop("failed", "the process ended without a word, perhaps for want of memory.")
-                break
-            if kind == "progress":
-                self.stage, self.share = content
-            else:
-                self.state, self.result = kind, content
-                self._process.join(5.0)
-        return self.state
+            return self.state
 
     def finish(self) -> None:
         """Wait for the end."""
@@ -94,10 +92,11 @@ class Job:
 
     def stop(self, state: str = "cancelled", why: str = "") -> None:
         """End a job, if it is running, in `state`; `why` is a sentence for the page."""
-        if self.state == "running":
-            self._process.kill()
-            self._process.join(5.0)
-            self.state, self.result = state, {"error": why}
+        with self._lock:
+            if self.state == "running":
+                self._process.kill()
+                self._process.join(5.0)
+                self.state, self.result = state, {"error": why}
 
 
 def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, output: Path | None) -> None:
