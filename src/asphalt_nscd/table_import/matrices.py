@@ -9,8 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.table_import.blocks import Block
-from asphalt_nscd.table_import.cells import Cells, Row, Sheet
+from asphalt_nscd.table_import.cells import Block, Cells, Row, Sheet
 from asphalt_nscd.table_import.decimals import match_decimal_mark
 from asphalt_nscd.table_import.header_lines import NUMBER, told_above
 from asphalt_nscd.table_import.heading import (

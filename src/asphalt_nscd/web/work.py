@@ -211,7 +211,7 @@ def _tables(path: Path) -> list[Cells]:
     from asphalt_nscd.table_import.cells import read_sheets
     from asphalt_nscd.table_import.header_lines import tabulated
     from asphalt_nscd.table_import.melt import holds_means
-    from asphalt_nscd.table_import.sheets import is_computed_sheet
+    from asphalt_nscd.table_import.rows_of_tests import is_computed_sheet
 
     sheets = read_sheets(path)
     if matrices.matches(sheets):
