@@ -65,6 +65,8 @@ def tabulated(path: Path, rows: list[Row], notes: list[str]) -> Cells:
     else:
         kept = passed
     cells = build_cells(path, [*kept, (names_line, stack.names), *body], notes)
+    # Before constants stand in the line of units too.
+    cells = _attach_unit_line(cells) if cells.rows else cells
     at = stack.at + [{}] * (len(cells.header) - len(stack.at))
     return add_constants(replace(cells, at=at if any(at) else None), told, "the lines above the names")
 
@@ -117,7 +119,7 @@ def sections(rows: list[Row]) -> list[list[Row]]:
     """Rows of a sheet, parted where names of columns come again below lines that say of what."""
     starts = [0]
     named = [n for n, (_, cells) in enumerate(rows) if _names(cells)]
-    for n in named[1:]:
+    for n in (n for n in named[1:] if n - 1 not in named):  # names may go over two lines
         above = n
         for start in range(max(n - MOST_LINES, starts[-1] + 1), n):
             if told_above([rows[start]])[1] and not any(map(NUMBER.fullmatch, rows[start + 1][1])):

@@ -35,7 +35,7 @@ _SPECIMEN = re.compile(
     r"(?:[A-Za-z]{0,3}[-_]?\d+[A-Za-z]?|[A-Z]))(?!\w)",
     re.IGNORECASE,
 )
-_TRAILING = re.compile(r"(?P<name>.*\S)(?:[\s_.#-]*(?P<at>\d{1,3})|[\s_-]+(?P<letter>[A-Z]\d{0,3}))")
+_TRAILING = (re.compile(r"(.*\S)[\s_-]+([A-Z]\d{0,3})"), re.compile(r"(.*\S)[\s_.#-]*(\d{1,3})"))
 _UNIT_AT_END = re.compile(r"(?P<stem>.*?)\s*(?P<unit>[(\[{][^()\[\]{}]*[)\]}])\s*")
 
 
@@ -102,10 +102,10 @@ def read_heading(text: str) -> Heading:
         if at and Heading(name).is_result:
             return Heading(name, at)
     # `|E*| 2` or `E* A`: a number or a single letter behind the name is a specimen.
-    if trailing := _TRAILING.fullmatch(_tidy(stem)):
-        heading = Heading(_tidy(trailing["name"]) + unit)
+    for trailing in filter(None, (pattern.fullmatch(_tidy(stem)) for pattern in _TRAILING)):
+        heading = Heading(_tidy(trailing[1]) + unit)
         if heading.is_result and SPECIMEN not in at:
-            return Heading(heading.name, at | {SPECIMEN: trailing["at"] or trailing["letter"]})
+            return Heading(heading.name, at | {SPECIMEN: trailing[2]})
     return Heading(text)
 
 

@@ -134,7 +134,7 @@ def _frequency_name(path: Path, line: int, cells: list[str]) -> str:
     return "omega (rad/s)" if units == {"rad/s"} else "frequency (Hz)"
 
 
-def _names_columns(cells: list[str]) -> bool:
+def _names_columns(cells: Sequence[str]) -> bool:
     return {"frequency_Hz", "E_MPa"} <= set(map(quantity_of, cells))
 
 

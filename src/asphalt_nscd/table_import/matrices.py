@@ -1,4 +1,4 @@
-"""Matrices of temperature by frequency, one for |E*| and one for the phase, on one sheet or on two."""
+"""Tables of one quantity each, |E*| and phase, on one sheet or on two: over temperature and frequency, or specimens."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from asphalt_nscd.table_import.heading import (
     read_heading,
 )
 from asphalt_nscd.table_import.quantities import units_in
-from asphalt_nscd.table_import.words import ABSENT, COMPUTED_SHEET
+from asphalt_nscd.table_import.words import ABSENT, COMPUTED_SHEET, OF_SPECIMENS
 
 _ABOVE = 4  # lines above a matrix that say what it is
 _ON_AXIS = re.compile(r"([-−+]?\d+(?:[.,]\d+)?)\s*(Hz|(?:[°º]\s*|deg\.?\s*)?[CF])?", re.IGNORECASE)
@@ -39,7 +39,7 @@ class _Value(NamedTuple):
 
     @property
     def key(self) -> tuple[str, float, float]:
-        return self.specimen, *map(_number, self.texts)
+        return self.specimen, _number(self.texts[0]), _number(self.texts[1])
 
 
 class _Axis(NamedTuple):
@@ -64,11 +64,14 @@ class _Matrix:
     names: dict[str, str] = field(default_factory=dict)
     unknown: list[str] = field(default_factory=list)
     values: list[_Value] = field(default_factory=list)
+    left_out: list[str] = field(default_factory=list)
 
 
 def matches(sheets: Sequence[Sheet]) -> bool:
     """Whether one of the sheets holds a matrix; |E*| may stand on one and the phase on another."""
-    return any(one.values for sheet in sheets for one in _matrices(sheet.rows, sheet.called))
+    return any(one.values for sheet in sheets for one in _matrices(sheet.rows, sheet.called)) or bool(
+        _columns(sheets)
+    )
 
 
 def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
@@ -76,9 +79,10 @@ def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
     path = sheets[0].file
     notes = list(dict.fromkeys(note for sheet in sheets for note in sheet.notes))
     matrices: list[_Matrix] = []
+    columns = _columns(sheets)
     for sheet in sheets:
         called = "" if sheet.alone else sheet.called
-        own = list(_matrices(sheet.rows, called))
+        own = [*_matrices(sheet.rows, called), *columns.get(sheet.name, [])]
         # A sheet with all quantities of its tests is a specimen's.
         if called and len({value.quantity for one in own for value in one.values}) > 1:
             if COMPUTED_SHEET.match(called):
@@ -104,6 +108,8 @@ def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
         first = next(iter(test.values()))
         told = [test[name].text if name in test else "" for name in names]
         rows.append((first.line, [first.specimen, *first.texts, *told][1 - len(labels) :]))
+    if left_out := dict.fromkeys(repr(label) for one in matrices for label in one.left_out):
+        notes.append(f"left out, means and deviations of other columns: {', '.join(left_out)}")
     notes.append(f"matrices of {' and '.join(map(repr, names.values()))} over {temperature} and {frequency}")
     return [Block(Cells(path, [*labels, temperature, frequency, *names.values()], rows, notes))]
 
@@ -168,6 +174,43 @@ def _matrices(rows: list[Row], called: str) -> Iterator[_Matrix]:
                     ]
                     whose = heading.at.get(SPECIMEN, specimen)
                     matrix.values.append(_Value(line, whose, (texts[0], texts[1]), heading.quantity, text))
+        yield matrix
+
+
+def _columns(sheets: Sequence[Sheet]) -> dict[str | None, list[_Matrix]]:
+    """By sheet, tables with a column for each specimen, if those of a file give more than one quantity."""
+    held = {sheet.name: list(_of_specimens(sheet.rows)) for sheet in sheets}
+    several = len({name for own in held.values() for one in own for name in one.names}) > 1
+    return held if several else {}
+
+
+def _of_specimens(rows: list[Row]) -> Iterator[_Matrix]:
+    """Rows of temperature and frequency below names of specimens, above which the quantity stands with its unit."""
+    for at, (_, head) in enumerate(rows):
+        quantities = [read_heading(cell).quantity for cell in head]
+        if {*quantities} - {""} != {"temperature_C", "frequency_Hz"}:
+            continue
+        places = [quantities.index(name) for name in ("temperature_C", "frequency_Hz")]
+        labels = {n: cell for n, cell in enumerate(head) if cell and n not in places}
+        headings = _quantities([row for _, row in rows[max(0, at - 2) : at]], head, min(labels, default=0))
+        column = next(iter(headings.values())).column if len(headings) == 1 else None
+        measures = {n: cell for n, cell in labels.items() if not OF_SPECIMENS.fullmatch(cell)}
+        if column is None or not column.unit or any(map(units_in, measures.values())):
+            continue
+        others = [cell for n, cell in labels.items() if n not in measures]
+        matrix = _Matrix((head[places[0]], head[places[1]]), left_out=others)
+        temperature = ""
+        for line, row in rows[at + 1 :]:
+            texts = [row[n] if n < len(row) else "" for n in (*places, *measures)]
+            temperature = texts[0] or temperature
+            if not all(NUMBER.fullmatch(text) or text.casefold() in ABSENT for text in texts) or not texts[1]:
+                break
+            matrix.names[column.quantity] = next(iter(headings.values())).name
+            matrix.values += [
+                _Value(line, label, (temperature, texts[1]), column.quantity, text)
+                for label, text in zip(measures.values(), texts[2:], strict=True)
+                if text.casefold() not in ABSENT
+            ]
         yield matrix
 
 
