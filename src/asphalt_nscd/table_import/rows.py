@@ -40,11 +40,11 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
     if 0 < len(tests) < len(cells.rows):  # of a table of means alone, these are the tests
         left.setdefault(_MEAN, []).extend(one for one in cells.rows if one not in tests)
         cells = replace(cells, rows=tests)
-    names = {row[place] for _, row in tests for place in labels}
+    specimens = {row[place] for _, row in tests for place in labels}
     for line, row in (*left.get(_REMARK, []), *left.get(_NOT_MEASURED, [])):
         # Of a second table, which would be taken for more of the first.
         # Behind the columns that lines above the names gave.
-        if any(set(told_above([(line, row[start:])])[0].values()) - names for start in range(4)):
+        if any(set(told_above([(line, row[start:])])[0].values()) - specimens for start in range(4)):
             raise InputError(
                 f"{cells.path}, line {line}: {' '.join(_filled(row))[:60]!r} stands among the tests; write it into a "
                 "column of its own, or the names of the columns below it."

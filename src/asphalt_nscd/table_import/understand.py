@@ -346,7 +346,9 @@ def _number(cells: Cells, name: str, place: Place, mark: str, n: int) -> float:
         return value
     if name in MAY_BE_ABSENT and text.casefold() in ABSENT:
         return np.nan
-    problem = f"{text!r} is not a number" if text else "the cell is empty (a formula not computed?)"
+    problem = f"{text!r} is not a number" if text else "the cell is empty"
+    if not text and cells.path.suffix.startswith((".xls", ".ods")):
+        problem += " (a formula not computed?)"
     raise InputError(
         f"{cells.path}, line {line}: {cells.header[place[0]]}: {problem}; write a number or remove the line."
     )

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import re
 import sys
 import threading
 import time
 import traceback
-import zipfile
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -29,8 +27,6 @@ MOST_MEMORY = 4 * 2**30  # bytes of addresses
 SECONDS_TO_READ = 180.0  # of a machine with other work
 SECONDS_TO_DIAGNOSE = 900.0
 ROWS_SHOWN = 6
-MOST_ROWS_OF_EXCEL = 1_048_576
-MOST_UNPACKED = 50_000_000  # bytes
 TOO_LONG = "this took too long; give the table of results of one campaign alone."
 WORDLESS = "the process ended without a word, perhaps for want of memory."
 BROKEN = "this could not be done, and the fault is ours; the terminal of `asphalt-nscd serve` says where."
@@ -140,8 +136,6 @@ def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
     from asphalt_nscd.table_import.campaign import read_campaign
     from asphalt_nscd.table_import.frames import frame_of
 
-    for path in paths:
-        _refuse_far_rows(path)
     campaign, form = read_campaign(paths, None, choices.columns, choices.measured_in)
     table = frame_of(campaign)
     shown = [name for name in table.columns if (table[name].notna() & (table[name] != "")).any()]
@@ -158,22 +152,6 @@ def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
         ],
         "columns": _columns(paths),
     }
-
-
-def _refuse_far_rows(path: Path) -> None:
-    """No spreadsheet has so many rows; a reader would fill in those that are missing."""
-    if path.suffix.lower() not in (".xlsx", ".xlsm") or not zipfile.is_zipfile(path):
-        return
-    with zipfile.ZipFile(path) as archive:
-        parts = [part for part in archive.infolist() if part.filename.startswith("xl/worksheets/")]
-        if sum(part.file_size for part in parts) > MOST_UNPACKED:
-            return  # refused by the reader
-        for part in parts:
-            for row in re.findall(rb'<row [^>]*?\br="(\d+)"', archive.read(part)):
-                if int(row) > MOST_ROWS_OF_EXCEL:
-                    raise InputError(
-                        f"{path}: a sheet names row {int(row)}, which none has; save the file anew."
-                    )
 
 
 def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
