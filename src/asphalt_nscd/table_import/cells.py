@@ -337,7 +337,7 @@ def _hidden_lines(path: Path, sheet: Any) -> list[str]:
     with sheet._get_source() as file:
         xml = file.read()
     for row in re.finditer(rb'<row\b[^>]*?\br="(\d+)"[^>]*?(?<!/)>(.*?)</row>', xml, re.DOTALL):
-        if int(row[1]) > MOST_ROWS and row[2].count(b"<v") > 1:
+        if int(row[1]) > MOST_ROWS and row[2].count(b"</c>") > 1:
             raise InputError(f"{path}: values in row {int(row[1])}; {TOO_MANY}")
     rows = [int(line) for line in re.findall(rb'<row\b(?=[^>]*\bhidden="(?:1|true)")[^>]*\br="(\d+)"', xml)]
     columns = re.findall(rb'<col\b(?=[^>]*\bhidden="(?:1|true)")[^>]*\bmin="(\d+)"', xml)

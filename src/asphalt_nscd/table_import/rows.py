@@ -36,9 +36,13 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
         why = _NAMES if row == cells.header else _rejection(row, keys, results)
         (kept if why is None else left.setdefault(why, [])).append((line, row))
     cells = _carried(replace(cells, rows=kept), places, CARRIED[:3])
-    tests = [one for one in cells.rows if not any(OF_SPECIMENS.fullmatch(one[1][place]) for place in labels)]
-    if 0 < len(tests) < len(cells.rows):  # of a table of means alone, these are the tests
-        left.setdefault(_MEAN, []).extend(one for one in cells.rows if one not in tests)
+    tests: list[Row] = []
+    means: list[Row] = []
+    for line, row in cells.rows:
+        of_others = any(OF_SPECIMENS.fullmatch(row[place]) for place in labels)
+        (means if of_others else tests).append((line, row))
+    if means and tests:  # of a table of means alone, these are the tests
+        left.setdefault(_MEAN, []).extend(means)
         cells = replace(cells, rows=tests)
     specimens = {row[place] for _, row in tests for place in labels}
     for line, row in (*left.get(_REMARK, []), *left.get(_NOT_MEASURED, [])):
