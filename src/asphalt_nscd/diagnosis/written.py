@@ -168,6 +168,6 @@ def cause_at(cause: str, place: str | float | None) -> str:
     return f"{words} of {specimen_named(place)}" if isinstance(place, str) else f"{words} at {place:g} degC"
 
 
-def name_at(cause: str, place: str | float | None) -> str:
+def name_at(cause: str, place: object) -> str:
     """`cause @ place`, or `cause` alone for all tests (None); a place is a specimen or an isotherm [degC]."""
     return cause if place is None else f"{cause} @ {place}"
