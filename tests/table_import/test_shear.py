@@ -99,7 +99,7 @@ def reads(path):
         (trios(("MPa", "kPa", "Pa")), "utf-8"),
         (table(), "utf-8"),
         (table(";", ","), "cp1252"),
-        (table("\t"), "utf-8"),
+        (table("\t", head="Temp (°C);Ang. Freq. (rad/sec);|G*| (Pa);Phase Angle δ (°);a;b"), "utf-8"),
         (table(head="temperature_C;angular_frequency_rad_s;G_Pa;phase_deg;G1_Pa;G2_Pa"), "utf-8"),
         (
             table(head="T [°C];f [Hz];Complex modulus G* [Pa];Phase angle [deg];a;b", omega=0.5 / np.pi),

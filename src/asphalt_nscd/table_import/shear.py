@@ -72,10 +72,9 @@ def _renamed(rows: list[Row], names: dict[str, str]) -> list[Row]:
 
 def _as_of_a_mix(name: str) -> str:
     """`E* (Pa)` for `G* (Pa)`, `Complex Modulus` for `Complex Shear Modulus`."""
-    name = re.sub(
-        r"\bang\b[.,]?\s*(?=freq)", "Angular ", _LETTER.sub("E", _SHEAR.sub("", name)), flags=re.IGNORECASE
-    )
-    return re.sub(r"[\s_]rad_s$", " (rad/s)", name)
+    name = _LETTER.sub("E", _SHEAR.sub("", name))
+    name = re.sub(r"\bang\b[.,]?\s*freq\w*\.?", "Angular frequency", name, flags=re.IGNORECASE)
+    return re.sub(r"[\s_]rad_s$", " (rad/s)", name.replace("rad/sec", "rad/s"))
 
 
 def _blocks(sheet: Sheet) -> Iterator[Sheet]:
