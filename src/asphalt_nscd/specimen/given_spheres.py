@@ -19,6 +19,8 @@ def require_spheres(name: object, position: np.ndarray, radius: np.ndarray) -> N
 
     Compiled code looks at no bounds: a radius below zero would have it write outside of its arrays.
     """
+    if np.ma.isMaskedArray(position) or np.ma.isMaskedArray(radius):
+        raise InputError(f"{name}: holds masked arrays; give plain ones, without what is masked.")
     position, radius = np.asarray(position), np.asarray(radius)
     if (
         position.shape != (radius.size, 3)
