@@ -99,11 +99,12 @@ class ContactProblem:
 
     def errors(self, r: np.ndarray) -> tuple[float, float]:
         """Errors of reactions `r` (3 c,) [N s], as Siconos states it and free of units (`natural_map`)."""
-        return natural_map(*self._arrays, r)
+        return natural_map(*self._arrays, r)  # type: ignore[call-arg]  # compiled
 
     def sweeps(self, tolerance: float, most_sweeps: int, first: np.ndarray) -> tuple[np.ndarray, int]:
         """Reactions (3 c,) [N s] by accelerated sweeps from `first` (3 c,), and the number of sweeps."""
-        return accelerated_sweeps(*self._arrays, tolerance, most_sweeps, first)
+        # compiled
+        return accelerated_sweeps(*self._arrays, tolerance, most_sweeps, first)  # type: ignore[call-arg]
 
     def factor(self, block: np.ndarray, pressed: np.ndarray | None = None) -> SuperLU | None:
         """Factors of the matrix with `block` (blocks, 3, 3) in the places of W, or None if it is singular.
