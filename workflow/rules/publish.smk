@@ -94,6 +94,9 @@ PUBLISHED = {
     ),
     "publish_rigs": Published("rigs", ["rigs.csv", "provenance.json"], {"rigs": "summary.csv"}),
     "publish_fall": Published("fall", ["falls.csv", "figures/fig_fall.png", "provenance.json"]),
+    "publish_ramp": Published(
+        "ramp", ["ramps.csv", "curve.csv", "figures/fig_ramp.png", "provenance.json"], {"ramp": "ramps.csv"}
+    ),
     # These are of programs that are no rules: `make faults`, `make fuzz`, trials/mutants.py, trials/cluster.
     "publish_faults": Published(
         "faults",
