@@ -33,14 +33,6 @@ def test_a_grade_is_its_usual_a_and_vts():
     assert grade.law.complex_modulus(OMEGA, 20.0) == pytest.approx(known.law.complex_modulus(OMEGA, 20.0))
 
 
-@pytest.mark.parametrize(("letter", "told"), [("", False), ("S", False), ("E", True), ("V", True)])
-def test_a_grade_with_a_letter_of_traffic(letter, told):
-    """AASHTO M 332: S is the plain grade; of the others the usual viscosity is that of the plain one, and told so."""
-    read = read_binder({"grade": f"PG 64{letter}-22"}, "r")
-    assert (read.law.shift.a, read.law.shift.vts) == GRADES[64][-22]
-    assert (f"PG 64{letter}-22 is taken for PG 64-22" in read.caution) == told
-
-
 def test_all_grades_obey_one_rule_to_their_last_digit():
     """300 Pa s at the high temperature, and one point that all pairs of one low temperature share.
 
@@ -81,6 +73,14 @@ def test_stiffer_grades_are_stiffer_where_they_are_named_for():
         for low in (-34, -28, -22, -16)
     ]
     assert (np.diff(hot) > 0).all() and (np.diff(cold) > 0).all()
+
+
+@pytest.mark.parametrize(("letter", "told"), [("", False), ("S", False), ("E", True), ("V", True)])
+def test_a_grade_with_a_letter_of_traffic(letter, told):
+    """AASHTO M 332: S is the plain grade; of the others the usual viscosity is that of the plain one, and told so."""
+    read = read_binder({"grade": f"PG 64{letter}-22"}, "r")
+    assert (read.law.shift.a, read.law.shift.vts) == GRADES[64][-22]
+    assert (f"PG 64{letter}-22 is taken for PG 64-22" in read.caution) == told
 
 
 def test_penetration_and_softening_point_by_hand():
