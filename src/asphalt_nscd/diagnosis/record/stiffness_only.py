@@ -14,7 +14,7 @@ import pandas as pd
 
 from asphalt_nscd.diagnosis.observed.observations import Vector
 from asphalt_nscd.diagnosis.observed.scatter import SCALE_FREEDOM, SPECIMEN_SCALE
-from asphalt_nscd.diagnosis.record.reported import EN_12697_26, IN_A_DECADE, NEAR
+from asphalt_nscd.diagnosis.record.reported import EN_12697_26, IN_A_DECADE, NEAR, law_with_band, table_of
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_json, write_table
 from asphalt_nscd.files.words import counted
@@ -47,18 +47,8 @@ class StiffnessOnly:
 
     def modulus(self, temperature: Vector, frequency: Vector) -> pd.DataFrame:
         """|E*| of the mix [MPa] with 95 % intervals at temperatures [degC] and frequencies [Hz], (n,) each."""
-        omega = 2.0 * np.pi * frequency
-        modulus = np.abs(self.fit.law.complex_modulus(omega, temperature)) * 1e-6
-        spread = np.exp(self.uncertainty.half(self.fit.law, omega, temperature).real)
-        return pd.DataFrame(
-            {
-                "temperature_C": temperature,
-                "frequency_Hz": frequency,
-                "E_MPa": modulus,
-                "E_low_MPa": modulus / spread,
-                "E_high_MPa": modulus * spread,
-            }
-        )
+        ends = law_with_band(self.fit.law, self.uncertainty, temperature, frequency)
+        return table_of(temperature, frequency, ends).filter(regex="_C$|_Hz$|_MPa$")
 
     def master_curve(self) -> pd.DataFrame:
         """|E*| over the band of the tests, at the reference temperature."""
