@@ -14,9 +14,9 @@ from fpdf import FPDF
 from fpdf.fonts import FontFace
 
 from asphalt_nscd.diagnosis.words.answer import Words
+from asphalt_nscd.diagnosis.words.sentences import numbers
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.files.store import atomic_path
-from asphalt_nscd.files.words import joined
 from asphalt_nscd.measurements.kinds import TEST_TYPES
 from asphalt_nscd.reporting.figures import fig_master, panels, style
 from asphalt_nscd.reporting.figures.numbers import celsius
@@ -86,7 +86,7 @@ class _Report(FPDF):
         look["headings_style"] = FontFace(emphasis="BOLD", fill_color=PALE)
         with self.table(col_widths=tuple(widths), **look | options) as table:
             for line in cells:
-                table.row(list(line))
+                table.row([typeset(cell) for cell in line])
 
     def picture(self, *figures: Any) -> None:
         """Figures side by side over the width of the page."""
@@ -144,7 +144,7 @@ def _about(content: Mapping[str, Any], title: str, heading: Heading) -> list[tup
     tested = {
         "kind of test": kind[:1].upper() + kind[1:],
         "specimens": ", ".join(reading["specimens"]),
-        "temperatures": typeset(f"{temperatures} degC"),
+        "temperatures": f"{temperatures} degC",
         "tests": str(content["tests"] + content["trust"]["not_used"]),
     }
     return [(name.capitalize(), text) for name, text in (said | tested).items() if text]
@@ -166,38 +166,26 @@ def _pictures(folder: Path, content: Mapping[str, Any]) -> list[Any]:
 
 
 def _grid(pdf: _Report, table: pd.DataFrame) -> None:
-    """Moduli with intervals at the conditions of AASHTO R 84; grey where no test was made near."""
+    """Moduli with intervals at the conditions of AASHTO R 84; a star where no test was made near."""
     table = table.iloc[1:]  # the first stands above
-    temperatures = table["temperature_C"].unique()
-    cells = {(row.temperature_C, row.frequency_Hz): row for row in table.itertuples()}
-    head = ["Hz", *(celsius(at) for at in temperatures)]
-    grey = FontFace(color=(150, 150, 150), size_pt=7.0)
-    with pdf.table(
-        col_widths=(0.6, *[1.4] * len(temperatures)),
-        text_align="CENTER",
-        line_height=3.6,
-        borders_layout="HORIZONTAL_LINES",
-        headings_style=FontFace(emphasis="BOLD", fill_color=PALE),
-    ) as made:
-        made.row(head)
-        pdf.set_font(FONT, size=7.0)
-        for frequency in table["frequency_Hz"].unique():
-            line = made.row([f"{frequency:g}"])
-            for at in temperatures:
-                row = cells[at, frequency]
-                line.cell(_interval(row), style=None if row.within_the_tests else grey)
+    table = table.assign(cell=[_interval(row) for row in table.itertuples()])
+    cells = table.pivot(index="frequency_Hz", columns="temperature_C", values="cell")
+    lines = [[f"{f:g}", *cells.loc[f]] for f in table["frequency_Hz"].unique()]
+    pdf.set_font(FONT, size=7.0)
+    look = {"text_align": "CENTER", "line_height": 3.6, "padding": 0.0}
+    pdf.rows([["Hz", *map(celsius, cells)], *lines], (0.6, *[1.4] * cells.shape[1]), **look)
     pdf.set_font(FONT, size=SIZE)
     if not table["within_the_tests"].all():
-        pdf.text_block("Grey: no test was made near it; by the law of the mix with its band.")
+        pdf.text_block("*: no test was made near it; by the law of the mix with its band.")
 
 
 def _interval(row: Any) -> str:
     if pd.isna(row.E_MPa):
         return "not known"
-    modulus = f"{row.E_MPa:.0f}\n{row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}"
-    return typeset(
-        f"{modulus}\n{row.phase_deg:.1f} deg ({row.phase_low_deg:.1f} to {row.phase_high_deg:.1f})"
+    modulus = (
+        f"{row.E_MPa:.0f}{' *' * (not row.within_the_tests)}\n{row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}"
     )
+    return f"{modulus}\n{row.phase_deg:.1f} deg ({row.phase_low_deg:.1f} to {row.phase_high_deg:.1f})"
 
 
 def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[str, str]]:
@@ -207,7 +195,7 @@ def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[s
         for label, said in Words(content).rows()
         if label in wanted
     ]
-    return [(label, typeset(" ".join(said)).replace("law.json", "the law")) for label, said in kept if said]
+    return [(label, " ".join(said).replace("law.json", "the law")) for label, said in kept if said]
 
 
 def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
@@ -218,7 +206,7 @@ def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
         return
     groups = told.groupby(["specimen", "temperature_C", "status", "reasons"], sort=False)["frequency_Hz"]
     lines = [
-        (specimen, celsius(at), joined([f"{f:g}" for f in hertz]), status, typeset(reasons))
+        (specimen, celsius(at), numbers(list(hertz)), status, reasons)
         for (specimen, at, status, reasons), hertz in groups
     ]
     pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
