@@ -91,13 +91,24 @@ def test_of_sound_tests_little_is_said():
 @pytest.mark.parametrize(
     "use,check,out,said",
     [
-        (65, 6, 1, "65 of 72 tests can be used, 6 only if a check clears them, 1 cannot."),
+        (
+            65,
+            6,
+            1,
+            "65 of 72 tests can be used, 2 are used but to be checked first, 4 only if a check clears them, 1 "
+            "cannot.",
+        ),
         (71, 0, 1, "71 of 72 tests can be used, 1 cannot."),
-        (0, 72, 0, "None of 72 tests can be used, 72 only if a check clears them."),
+        (
+            0,
+            72,
+            0,
+            "None of 72 tests can be used, 68 are used but to be checked first, 4 only if a check clears them.",
+        ),
     ],
 )
 def test_how_far_each_test_can_be_used_is_one_answer(use, check, out, said):
-    trust = {"use": use, "check": check, "not_used": out}
+    trust = {"use": use, "check": check, "held_back": min(check, 4), "not_used": out}
     assert row("Data", suspect_tests=of_suspects(0, out), tests=72 - out, trust=trust) == [said]
 
 

@@ -148,7 +148,7 @@ def content(
     """
     names, at, frequencies = tests
     return {
-        "text": f"{hours:.1f} h: {act}, {band(frequencies)}{HALF * half}.",
+        "text": f"{round(hours, 2):.1f} h: {act}, {band(frequencies)}{HALF * half}.",
         "act": act,
         "purpose": why[0],
         "why": why[1],

@@ -13,7 +13,9 @@ import pandas as pd
 from fpdf import FPDF
 from fpdf.fonts import FontFace
 
+from asphalt_nscd.diagnosis.content import DOUBTFUL, HELD_BACK, LEFT_OUT
 from asphalt_nscd.diagnosis.words.answer import Words
+from asphalt_nscd.diagnosis.words.facts import by_isotherm
 from asphalt_nscd.diagnosis.words.sentences import numbers
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.files.store import atomic_path
@@ -30,7 +32,7 @@ FONT = "DejaVu"
 SIZE = 9.0  # points
 PALE = (238, 240, 243)
 # Rows of the answer that a client reads; the others tell the laboratory what to do next.
-FINDINGS = ("Data", "Fault", "Possible fault", "Effect", "Possible effect", "Scatter", "Unexplained")
+FINDINGS = ("Data", "Fault", "Possible fault", "Effect", "Possible effect", "Scatter", "Law", "Unexplained")
 DOUBTS = ("Check first",)  # what was left out is a table
 AT_COMMAND_LINE = ("--", ".csv")  # what no client has
 
@@ -109,14 +111,14 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf = _Report(heading.mix or title, by)
     pdf.add_page()
     pdf.heading("Complex modulus of an asphalt mix", 15.0)
-    pdf.rows(_about(content, title, heading), (1.0, 3.0), first_row_as_headings=False)
+    pdf.rows(_about(content, heading), (1.0, 3.0), first_row_as_headings=False)
     pdf.heading("Result")
     pdf.set_font(FONT, "B", 10.5)
     pdf.text_block(typeset(Words(content)("value")[0]))
     pdf.set_font(FONT, size=SIZE)
     pdf.text_block(
-        "In brackets: 95 % intervals. Points: tests as measured. Line and values: the mix; certain faults are taken "
-        "off, possible ones by their probability."
+        "In brackets: 95 % intervals. Points: tests as measured. Values: the mix; certain faults are taken off, "
+        "possible ones by their probability. Line and band: the law below, which has few parameters."
     )
     pdf.picture(*_pictures(folder, content))
     pdf.heading("|E*| in MPa and phase in ° over temperature and frequency")
@@ -124,7 +126,7 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf.heading("What was found")
     pdf.rows(_findings(content, FINDINGS), (1.0, 4.0), first_row_as_headings=False)
     pdf.heading("What was left out or is in doubt, and why")
-    _left_out(pdf, pd.read_csv(folder / "corrected.csv", dtype={"specimen": str}, keep_default_na=False))
+    _left_out(pdf, content)
     doubts = _findings(content, DOUBTS)
     if doubts:
         pdf.rows(doubts, (1.0, 4.0), first_row_as_headings=False)
@@ -134,12 +136,11 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     return folder / PDF
 
 
-def _about(content: Mapping[str, Any], title: str, heading: Heading) -> list[tuple[str, str]]:
-    """Names and values of what was tested, by whom and how; the campaign stands for a mix without a name."""
+def _about(content: Mapping[str, Any], heading: Heading) -> list[tuple[str, str]]:
+    """Names and values of what was tested, by whom and how; what is not stated is left out."""
     reading = content["reading"]
     kind = TEST_TYPES.get(reading["test_type"], "not stated")
     said = {name: getattr(heading, name) for name in ("project", "mix", "operator", "date", "standard")}
-    said["mix"] = said["mix"] or title
     temperatures = ", ".join(f"{at:g}" for at in reading["isotherms_C"])
     tested = {
         "kind of test": kind[:1].upper() + kind[1:],
@@ -198,18 +199,19 @@ def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[s
     return [(label, " ".join(said).replace("law.json", "the law")) for label, said in kept if said]
 
 
-def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
-    """Tests that were not used or are doubtful, and why."""
-    told = table[table["status"] != "used"]
-    if told.empty:
-        pdf.text_block(f"No test was left out: all {len(table)} were used.")
-        return
-    groups = told.groupby(["specimen", "temperature_C", "status", "reasons"], sort=False)["frequency_Hz"]
+def _left_out(pdf: _Report, content: Mapping[str, Any]) -> None:
+    """Tests that are not simply used, and why."""
     lines = [
-        (specimen, celsius(at), numbers(list(hertz)), status, reasons)
-        for (specimen, at, status, reasons), hertz in groups
+        (specimen, celsius(at), numbers(hertz), status, "; ".join(reasons))
+        for status in (LEFT_OUT, HELD_BACK, DOUBTFUL)
+        for specimen, at, reasons, hertz in by_isotherm(
+            [one for one in content["suspect_tests"] if one["status"] == status]
+        )
     ]
-    pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
+    if lines:
+        pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
+    else:
+        pdf.text_block(f"No test was left out: all {content['tests']} were used.")
 
 
 def _law(pdf: _Report, content: Mapping[str, Any]) -> None:
