@@ -119,11 +119,6 @@ def typed(unit: str) -> str:
     return {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
 
 
-def capital(words: str) -> str:
-    """The words with a capital first; units keep theirs."""
-    return f"{words[:1].upper()}{words[1:]}"
-
-
 def article(words: str) -> str:
     """The words (not empty) with their article, by the first letter, a vowel or not."""
     return f"{'an' if words[0] in 'aeiou' else 'a'} {words}"

@@ -7,7 +7,7 @@ from functools import cache
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from asphalt_nscd.diagnosis.words import sentences
-from asphalt_nscd.files.words import joined, specimen_named, three_digits
+from asphalt_nscd.files.words import capital, joined, specimen_named, three_digits
 
 END = "¶"
 
@@ -23,7 +23,12 @@ def environment() -> Environment:
         autoescape=False,  # noqa: S701  the page escapes it
     )
     made.filters |= {name: value for name, value in vars(sentences).items() if callable(value)}
-    made.filters |= {"joined": joined, "named": specimen_named, "three_digits": three_digits}
+    made.filters |= {
+        "capital": capital,
+        "joined": joined,
+        "named": specimen_named,
+        "three_digits": three_digits,
+    }
     return made
 
 

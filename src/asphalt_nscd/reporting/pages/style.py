@@ -12,9 +12,8 @@ import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from asphalt_nscd.diagnosis.words.sentences import capital
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.words import counted, joined, three_digits
+from asphalt_nscd.files.words import capital, counted, joined, three_digits
 
 
 def _own(name: str) -> str:
