@@ -85,7 +85,7 @@ def command(
         names = curve.write(output)
         if page:
             shown = _data.part("reporting.pages", "stiffness_page")
-            names.append(shown.write_page(output, title, str(curve)).name)
+            names.append(shown.write_page(output, title, curve.rows).name)
         click.echo(f"{curve}\n\nWritten to {output}: {', '.join(names)}.")
         return
     with bars("step", on_terminal=True) as progress:

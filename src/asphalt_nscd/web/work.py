@@ -236,7 +236,7 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     if has_no_phase(campaign):
         curve = fit_stiffness(campaign)
         curve.write(output)
-        stiffness_page.write_page(output, title, str(curve))
+        stiffness_page.write_page(output, title, curve.rows)
         return {"reported": curve.reported, "page": diagnosis_page.PAGE, "files": _names(output)}
     diagnosis = diagnose(
         campaign,
