@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import io
+import multiprocessing
 import time
 import zipfile
 
+import forks  # noqa: F401  what its server has loaded, a process need not load again
 import pytest
 from table_import.slips import workbook
 
@@ -13,6 +15,7 @@ pytest.importorskip("flask")
 
 from asphalt_nscd.files.errors import InputError  # noqa: E402
 from asphalt_nscd.web import app as pages  # noqa: E402
+from asphalt_nscd.web import work  # noqa: E402
 from asphalt_nscd.web.app import create_app, safe_name  # noqa: E402
 from asphalt_nscd.web.work import Choices, Job, read_tables  # noqa: E402
 
@@ -24,6 +27,13 @@ TABLE = "specimen,T (°C),f (Hz),E (MPa),phi (°)\n" + "".join(
 )
 TAB = "0123456789ab"
 PAGE = f"/secret/{TAB}/"
+
+
+@pytest.fixture(autouse=True)
+def quick_processes(monkeypatch):
+    """Started as forks; test_ended and test_browser start them as users do."""
+    context = multiprocessing.get_context("forkserver")
+    monkeypatch.setattr(work.multiprocessing, "get_context", lambda _: context)
 
 
 @pytest.fixture
