@@ -422,11 +422,11 @@ def draw(seed: int, folder: Path) -> tuple[str, Path, Tests]:
         else lab.pick("xlsx", "xlsx", "ods")
     )
     path = folder / f"{family.__name__}_{seed}.{ending}"
-    {"xlsx": _save_xlsx, "ods": _save_ods, "csv": _save_csv}[ending](path, sheets, lab)
+    {"xlsx": save_xlsx, "ods": save_ods, "csv": save_csv}[ending](path, sheets, lab)
     return family.__name__, path, lab.tests
 
 
-def _save_xlsx(path: Path, sheets: Sheets, lab: Laboratory) -> None:
+def save_xlsx(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     book = openpyxl.Workbook()
     book.remove(book.active)
     hide = lab.chance(0.1)
@@ -438,7 +438,7 @@ def _save_xlsx(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     book.save(path)
 
 
-def _save_csv(path: Path, sheets: Sheets, lab: Laboratory) -> None:
+def save_csv(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     """With semicolons and decimal commas where the language has them."""
     ((_, rows),) = sheets.items()
     english = lab.language == "en"
@@ -458,7 +458,7 @@ def _save_csv(path: Path, sheets: Sheets, lab: Laboratory) -> None:
         )
 
 
-def _save_ods(path: Path, sheets: Sheets, lab: Laboratory) -> None:
+def save_ods(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     """As LibreOffice keeps it."""
 
     def cell(value: Any) -> str:
