@@ -160,14 +160,18 @@ def interval_95(value: float, error: float, factor: float = 1.0, of_logarithm: b
     return [value - factor * CONFIDENCE * error, value + factor * CONFIDENCE * error]
 
 
-def cause_at(cause: str, place: str | float | None) -> str:
+def cause_at(cause: str, place: object) -> str:
     """A cause and its place in words: `temperature bias at 30 degC`, `loose clamp of specimen 2`."""
     words = cause.replace("_", " ")
     if place is None:
         return words
-    return f"{words} of {specimen_named(place)}" if isinstance(place, str) else f"{words} at {place:g} degC"
+    return (
+        f"{words} at {place:g} degC"
+        if isinstance(place, float)
+        else f"{words} of {specimen_named(str(place))}"
+    )
 
 
-def name_at(cause: str, place: str | float | None) -> str:
+def name_at(cause: str, place: object) -> str:
     """`cause @ place`, or `cause` alone for all tests (None); a place is a specimen or an isotherm [degC]."""
     return cause if place is None else f"{cause} @ {place}"

@@ -30,6 +30,7 @@ from asphalt_nscd.table_import.several_files import (
     rows_of,
     unify_spelling,
 )
+from asphalt_nscd.table_import.shear import is_shear
 from asphalt_nscd.table_import.skipped_files import SkippedFile, common_mend, listed, refused
 from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
@@ -223,6 +224,12 @@ def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:
 
 def _parts(path: Path, layout: Layout, sheets: Sequence[Sheet], wanted: _Wanted) -> list[Part]:
     blocks = layout.read(sheets, wanted.columns)
+    shear = next((name for block in blocks for name in block.cells.header if is_shear(name)), "")
+    if shear and not wanted.columns:
+        raise InputError(
+            f"{path}: column {shear!r} is of a shear modulus, as binders have; give |E*| of the mix here. A recipe of "
+            "`asphalt-nscd forecast` takes this file, as binder: {table: FILE}."
+        )
     return [Part(path, understand(block.cells, wanted.columns, wanted.mix), block) for block in blocks]
 
 
