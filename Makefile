@@ -52,7 +52,7 @@ smoke: $(READY)
 	@.venv/bin/snakemake --logger steps --cores $(CORES) --configfile config/smoke.yaml
 
 attack: $(READY)
-	@.venv/bin/snakemake attack --logger steps --cores $(CORES) --configfile config/paper.yaml config/attack.yaml
+	@.venv/bin/snakemake attack publish_machines publish_inside --logger steps --cores $(CORES) --configfile config/paper.yaml config/attack.yaml
 	@cat results/attack/summary.csv results/attack/inside_summary.csv
 
 study: $(READY)

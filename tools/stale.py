@@ -28,7 +28,7 @@ MAKES = {  # what is made by programs that are no rules
     "publish_mutants": "snakemake mutants --cores 1 && ",
     "publish_cluster": "make cluster && ",
 }
-MORE = {"attack": " config/attack.yaml"}
+MORE = dict.fromkeys(["attack", "publish_machines", "publish_inside"], " config/attack.yaml")
 
 
 def table() -> pd.DataFrame:
