@@ -132,11 +132,6 @@ def test_chance_of_a_score_is_the_share_of_draws_and_beyond_them_falls_like_the_
     assert chance.tail(drawn, 0.0) == 1.0
 
 
-def test_the_wrong_sign_of_a_one_sided_effect_is_nothing():
-    found = Scores(np.array([-4.0, -4.0, 3.0]), np.ones(3), np.ones(3, bool), np.eye(3))
-    assert chance.effective(found, np.array([True, False, True])).tolist() == [0.0, 4.0, 3.0]
-
-
 # two specimens at three frequencies, each test twice; freedom of the scatter
 TWO = SimpleNamespace(
     observed=SimpleNamespace(

@@ -55,9 +55,8 @@ def test_limits_of_the_linear_model_are_those_of_the_diagnosis(empty):
         error = empty.ladder.estimates[candidate.key][1] / candidate.typical[0]
         strength = Question(k, error, (), 1e9, everything).strength(information)
         assert np.sqrt(strength) == pytest.approx(1.0, rel=0.08), candidate.key
-        # raised by a quarter at a time where a discrepancy would take the effect up
-        raised = np.log(limit / candidate.typical[0] / (5.3 * error)) / np.log(1.25)
-        assert raised == pytest.approx(round(raised), abs=0.2) and round(raised) in range(7), candidate.key
+        # raised where processes would take the effect up
+        assert 0.9 < limit / candidate.typical[0] / (5.3 * error) < 4.0, candidate.key
 
 
 def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(delayed):

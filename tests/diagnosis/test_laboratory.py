@@ -131,9 +131,9 @@ def test_limits_of_a_careful_laboratory_do_not_grow():
     """In K, 1/Pa, deg and s, a tenth above what they were in 2026; with fixed sizes the isotherms had 1.5 K."""
     limits = diagnose(table(3), draws=500).ladder.limits
     most = {
-        ("temperature_bias", 10.0): 1.05, ("temperature_bias", 15.0): 0.9, ("temperature_bias", 20.0): 0.97,
-        ("loose_clamp", "a"): 2.6e-12, ("loose_clamp", "d"): 2.6e-12, ("phase_offset", None): 0.57,
-        ("channel_delay", None): 3.8e-5, ("moving_mass", None): 0.16, ("self_heating", None): 0.37,
+        ("temperature_bias", 10.0): 0.93, ("temperature_bias", 15.0): 0.82, ("temperature_bias", 20.0): 0.87,
+        ("loose_clamp", "a"): 2.58e-12, ("loose_clamp", "d"): 2.47e-12, ("phase_offset", None): 0.53,
+        ("channel_delay", None): 2.9e-5, ("moving_mass", None): 0.15, ("self_heating", None): 0.35,
     }  # fmt: skip
     assert not {key: limits[key] for key, value in most.items() if limits[key] > value}
 

@@ -155,7 +155,7 @@ def test_what_competes_for_a_name_has_a_size_and_shapes_of_its_own():
     assert stands("guide_friction", 1e6)[0] is False  # its interval holds zero
 
 
-@pytest.mark.parametrize("strength", [5e8, 2e9])
+@pytest.mark.parametrize("strength", [1e9, 2e9])
 def test_a_second_process_that_shifts_as_fast_as_half_the_mix_is_found(strength):
     """From 30 and 60 kJ/mol with an exponent of 0.6 alone, its size seems to be below zero."""
     observed = table(broken=0.0)

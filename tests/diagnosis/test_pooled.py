@@ -95,8 +95,8 @@ def test_where_the_discrepancy_starts_does_not_change_the_evidence(seed, size):
     state = begun.state
     astray = replace(begun, state=replace(state, variances=np.full_like(state.variances, size)))
     one, other = (pooled._evidence(each, [OFFSET]) for each in (begun, astray))
-    assert other.information == pytest.approx(one.information, rel=1e-3)
-    assert other.score == pytest.approx(one.score, rel=1e-3)
+    assert other.information == pytest.approx(one.information, rel=5e-3)
+    assert other.score == pytest.approx(one.score, rel=5e-3)
 
 
 def test_a_delay_is_not_called_an_offset():

@@ -90,11 +90,6 @@ def tail(by_chance: Vector, z: float) -> float:
     return float(min(0.01, 0.01 * float(ndtr(-z)) / float(ndtr(-edge))))
 
 
-def effective(found: Scores, one_sided: NDArray[np.bool_]) -> Vector:
-    """Size (k,) of each score: |z|, with the wrong sign of a one-sided effect counted as nothing."""
-    return np.where(one_sided, np.maximum(found.z, 0.0), np.abs(found.z))
-
-
 def catalogue_candidates(observed: Observations, catalogue: Sequence[Cause]) -> list[Candidate]:
     """Every cause at every place with every starting shape, absent (amplitude zero)."""
     return [

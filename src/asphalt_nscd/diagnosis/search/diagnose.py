@@ -270,7 +270,7 @@ def _noise(
         modulus, phase = scatter_stated
         return scatter.stated(observed, modulus, phase, scatter.SPECIMEN_SCALE), True
     logarithm = observed.logarithm.real - scatter.median_by(observed.logarithm.real, observed.cell)
-    scales = np.array([np.median(logarithm[observed.specimen == k]) for k in range(len(observed.names))])
+    scales = np.array([np.median(logarithm[observed.specimen == k]) for k in np.unique(observed.specimen)])
     membership = np.eye(len(observed.names), dtype=complex)[observed.specimen]
     noise = scatter.estimate(observed, membership, scales)
     if noise is not None:
