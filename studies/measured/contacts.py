@@ -199,8 +199,9 @@ def tests() -> Iterator[Test]:
     for shear in SHEARS:
         yield usual._replace(shear=shear)
         yield usual._replace(shear=shear, programme=PULLED)
-    for other in ({"pressure": 1e3}, {"pressure": 100e3}, {"friction": 0.3}):
-        yield usual._replace(**other)
+    for pressure in (1e3, 100e3):
+        yield usual._replace(pressure=pressure)
+    yield usual._replace(friction=0.3)
 
 
 def run(job: Any) -> None:

@@ -143,7 +143,7 @@ def _rms(values: pd.Series) -> float:
 
 
 def run(job: Any) -> None:
-    """excess.csv and budget.csv of the nine NCAT mixes and of those of data/mixes50."""
+    """excess.csv, budget.csv and sign.csv of the nine NCAT mixes and of those of data/mixes50."""
     mechanisms = Mechanisms(job.input)
     tables = [("ncat", Path(path).stem, pd.read_csv(path, comment="#")) for path in job.input.ncat]
     mixes = pd.read_csv(job.input.mixes, comment="#").groupby("mix")
@@ -152,6 +152,7 @@ def run(job: Any) -> None:
     table = pd.concat(parts, ignore_index=True)
     write_table(job.output.excess, table)
     write_table(job.output.budget, budget(table))
+    write_table(job.output.sign, mechanisms.sign())
 
 
 if __name__ == "__main__":

@@ -30,6 +30,17 @@ class Mechanisms:
         stated &= np.isclose(of["shear"], SHEAR)
         return of[stated & np.isclose(of["amplitude_1e6"], 1e6 * amplitude)]
 
+    def sign(self) -> pd.DataFrame:
+        """What decides whether contacts raise the phase: by the stiffness of films in shear, in one mix, both tests."""
+        of = self.contact
+        one = np.isclose(of["exponent"], 0.3) & (np.abs(of["E_MPa"] / 900.0 - 1.0) < 0.02)
+        one &= np.isclose(of["amplitude_1e6"], 35.0) & (of["pressure_kPa"] == 10.0) & (of["friction"] == 0.5)
+        test = of["haversine"].map({1: "haversine", 0: "tension-compression"})
+        shown = of.assign(test=test, E_percent=100.0 * of["lnE"])[one]
+        names = ["gain_percent", "loss_percent", "cell_gain_percent", "cell_loss_percent"]
+        shown = shown[["test", "shear", "poisson", *names, "E_percent", "change_deg"]]
+        return shown.sort_values(["test", "shear"], ascending=[True, False])
+
     def contacts(self, modulus: Vector, amplitude: float) -> Vector:
         """ln of what is read over E* (n,) [Pa], by grains that slip and open, at an amplitude of strain."""
         usual = self.usual(amplitude)

@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-import pytest
 
 from asphalt_nscd.measurements.twopoint import PAPER, bending_share
 from asphalt_nscd.rheology.reconstruct import Sampling
@@ -126,14 +125,18 @@ def test_errors_of_temperatures_that_were_left_out():
     assert f"measured mixes are missed by {told[0]} of |E\\*| and {told[1]} of the phase" in page("results")
     means = published("measured/means").set_index("rung").filter(like="left_out_isotherm").round(1)
     burgers, one_law = (means.loc[rung].tolist() for rung in ("burgers", "one_law"))
-    said = f"missed by {burgers[0]} and {burgers[1]} %, and by {one_law[0]} and {one_law[1]} %: outside the data"
+    said = (
+        f"missed by {burgers[0]} and {burgers[1]} %, and by {one_law[0]} and {one_law[1]} %: outside the data"
+    )
     assert said in page("results")
 
 
 def test_what_the_results_say_of_samples():
     text, samples = page("results"), published("paper/samples")
     assert round(samples.spheres.mean(), -2) == 9400 and "about 9400 of which remain" in text
-    assert samples.largest_phase_difference_deg.max() < 0.1 and "The phase agrees to a tenth of a degree" in text
+    assert (
+        samples.largest_phase_difference_deg.max() < 0.1 and "The phase agrees to a tenth of a degree" in text
+    )
     facets = published("paper/facets")
     assert np.abs(facets.E_MPa / facets.E_law_MPa - 1.0).max() < 2e-3 and "it is 1 within 0.2 %" in text
     factor = 1.0 / bending_share(PAPER, 0.0)
@@ -142,7 +145,9 @@ def test_what_the_results_say_of_samples():
     assert f"phase of a single test scatters by {cold.scatter_phase_percent:.0f} %" in text
     drawn, printed = (published("paper/ensemble").iloc[0].filter(like=name) for name in ("mean", "burgers"))
     assert drawn.mean_E_percent < printed.burgers_E_percent
-    assert drawn.mean_phase_percent > printed.burgers_phase_percent and "the gain in the phase is gone" in text
+    assert (
+        drawn.mean_phase_percent > printed.burgers_phase_percent and "the gain in the phase is gone" in text
+    )
 
 
 def test_what_a_percent_of_air_costs():

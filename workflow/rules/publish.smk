@@ -62,9 +62,14 @@ PUBLISHED = {
         "measured",
         [
             *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png", "provenance.json"),
-            *("amplitude.csv", "contacts.csv", "binder.csv", "clock.csv"),
+            *("amplitude.csv", "contacts.csv", "sign.csv", "binder.csv", "clock.csv"),
         ],
-        {"measured_means": "means.csv", "excess_budget": "budget.csv", "measured_amplitude": "amplitude.csv"},
+        {
+            "measured_means": "means.csv",
+            "excess_budget": "budget.csv",
+            "measured_amplitude": "amplitude.csv",
+            "contacts_sign": "sign.csv",
+        },
     ),
     "publish_excess": Published(
         "excess", ["excess.csv", "summary.csv", "provenance.json"], {"drawn_excess": "summary.csv"}

@@ -338,6 +338,22 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
             figures=2,
         )
     ],
+    "contacts_sign": [
+        Layout(
+            {
+                "test": "test",
+                "shear": "shear",
+                "poisson": "ν",
+                "gain_percent": "gain, %",
+                "cell_gain_percent": "in a cell",
+                "loss_percent": "loss, %",
+                "cell_loss_percent": "in a cell ",
+                "E_percent": "E, %",
+                "change_deg": "phase, °",
+            },
+            figures=2,
+        )
+    ],
     "excess_budget": [
         Layout(
             {
