@@ -1,9 +1,10 @@
 """What grains that touch, open and slip do to a haversine test, in a small cylinder of poured stones.
 
 Films between neighbours follow one power law; stiff enough, they and the stones have the |E*| of a mix, and some phase,
-while all contacts stick. Nothing is fitted: pressure, friction, amplitudes and Poisson's ratio are stated. The answer
-is ln of what is read over what would be read if no contact slipped. Beside it stand the same contacts, each moved as
-the mean strain of the test says: a cell without a network.
+while all contacts stick. Nothing is fitted: pressure, friction and amplitudes are stated, and films are of two kinds,
+as stiff in shear as normal to them or weak in it. The answer is ln of what is read over what would be read if no
+contact slipped. In one mix stand beside it the same contacts, each moved as the mean strain of the test says: a cell
+without a network.
 """
 
 from collections.abc import Iterator
@@ -31,14 +32,16 @@ from asphalt_nscd.rheology.as_run import Programme, modulus_as_read
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from studies.measured.cylinder import BOX, SPHERES
-from studies.measured.stated import AMPLITUDES, SEVERAL, SHEAR
+from studies.measured.stated import AMPLITUDES, SEVERAL, WEAK
 
 SHARE = 0.38  # of the volume of a cylinder of full size: some 500 stones
-MODULI = 300e6, 900e6, 1.8e9, 4e9, 20e9  # Pa, of mixes of both populations but the softest
+MODULI = 300e6, 500e6, 900e6, 1.8e9, 4e9, 9e9, 20e9  # Pa, of mixes of both populations but the softest
+WITH_WEAK_FILMS = 300e6, 900e6, 4e9, 20e9
 EXPONENTS = 0.1, 0.3, 0.6  # of the films, over frequency
 HAVERSINE = Programme(haversine=True, cycles=6, read=3, drift=True, samples=24)
+DOUBTS = (1e3, 0.5), (100e3, 0.5), (10e3, 0.3)  # pressure [Pa] and friction
 PULLED = replace(HAVERSINE, haversine=False)
-SHEARS = 1.0, 0.3, 0.1, 0.03, 0.01
+SHEARS = 1.0, 0.1, WEAK
 FREQUENCY = 1.0  # Hz; another changes nothing but the scale of time
 OMEGA = 2.0 * np.pi * FREQUENCY
 FILM = 1e9  # Pa, |E*| of films before they are made stiffer
@@ -54,9 +57,10 @@ class Test(NamedTuple):
     exponent: float
     amplitude: float  # of strain
     programme: Programme = HAVERSINE
-    shear: float = SHEAR
+    shear: float = 1.0
     pressure: float = 10e3  # Pa, on the stones
     friction: float = 0.5
+    cell: bool = False  # whether it is moved without a network too
 
 
 def stones() -> dict[float, Model]:
@@ -74,7 +78,7 @@ def stones() -> dict[float, Model]:
 
 
 def row(model: Model, test: Test) -> dict[str, float]:
-    """What a test reads, and what the same contacts do where grains follow the mean strain."""
+    """What a test reads; of a cell too, what contacts change by, over their share of the mix."""
     law = bond_law(_power_law(FILM, test.exponent, 0.0, test.programme))
     skeleton = skeleton_of(model, test.pressure, test.friction)
     size = model.geometry.form_factor()
@@ -90,10 +94,7 @@ def row(model: Model, test: Test) -> dict[str, float]:
     force = abs(stuck) * test.amplitude * model.geometry.h
     ran = run_cycles(system, law, skeleton, FREQUENCY, force, test.programme)
     change = np.log(ran.stiffness / stuck) - log_read_alone(stuck, test.exponent, test.programme)
-    own = stuck * (np.exp(change) - 1.0) / _parts(stuck, test.exponent)[1]
-    poisson = poisson_ratio(model, system, law, skeleton)
-    affine = followed(model, skeleton, poisson, ran, test.programme)
-    return {
+    told = {
         "E_MPa": size * abs(stuck) / 1e6,
         "exponent": test.exponent,
         "amplitude_1e6": 1e6 * test.amplitude,
@@ -101,15 +102,22 @@ def row(model: Model, test: Test) -> dict[str, float]:
         "shear": test.shear,
         "pressure_kPa": test.pressure / 1e3,
         "friction": test.friction,
-        "poisson": poisson,
         "phase_deg": float(np.degrees(np.angle(stuck))),
         "lnE": float(change.real),
         "change_deg": float(np.degrees(change.imag)),
+        "energy_error": float(1.0 - ran.taken / ran.work),
+    }
+    if not test.cell:
+        return told
+    own = stuck * (np.exp(change) - 1.0) / _parts(stuck, test.exponent)[1]
+    poisson = poisson_ratio(model, system, law, skeleton)
+    affine = followed(model, skeleton, poisson, ran, test.programme)
+    return told | {
+        "poisson": poisson,
         "gain_percent": 100.0 * own.real,
         "loss_percent": 100.0 * own.imag,
         "cell_gain_percent": 100.0 * affine.real,
         "cell_loss_percent": 100.0 * affine.imag,
-        "energy_error": float(1.0 - ran.taken / ran.work),
     }
 
 
@@ -193,23 +201,27 @@ def tests() -> Iterator[Test]:
     """What is simulated: the grid of both populations, several amplitudes, and what may decide the answer."""
     for amplitude, modulus, exponent in product(AMPLITUDES.values(), MODULI, EXPONENTS):
         yield Test(modulus, exponent, amplitude)
-    for amplitude in SEVERAL:
-        yield Test(6e9, 0.3, amplitude, PULLED)
-    usual = Test(900e6, 0.3, AMPLITUDES["ncat"])
-    for shear in SHEARS:
-        yield usual._replace(shear=shear)
-        yield usual._replace(shear=shear, programme=PULLED)
-    for pressure in (1e3, 100e3):
-        yield usual._replace(pressure=pressure)
+    for programme, amplitude in product((HAVERSINE, PULLED), SEVERAL):
+        yield Test(6e9, 0.3, amplitude, programme)
+    for (pressure, friction), modulus in product(DOUBTS, (900e6, 4e9)):
+        yield Test(modulus, 0.3, AMPLITUDES["ncat"], pressure=pressure, friction=friction)
+    for amplitude, modulus, exponent in product(AMPLITUDES.values(), WITH_WEAK_FILMS, EXPONENTS):
+        yield Test(modulus, exponent, amplitude, shear=WEAK)
+    usual = Test(900e6, 0.3, AMPLITUDES["ncat"], shear=WEAK)
+    yield usual._replace(pressure=100e3)
     yield usual._replace(friction=0.3)
+    for shear, programme in product(SHEARS, (HAVERSINE, PULLED)):
+        yield usual._replace(shear=shear, programme=programme, cell=True)
 
 
 def run(job: Any) -> None:
-    """contacts.csv."""
-    models, asked = stones(), list(dict.fromkeys(tests()))
+    """contacts.csv, and sign.csv of the tests that stand beside a cell."""
+    models, asked = stones(), list(tests())
     with ProcessPoolExecutor(job.threads) as pool:
-        rows = list(pool.map(row, [models[test.shear] for test in asked], asked))
-    write_table(job.output[0], pd.DataFrame(rows))
+        table = pd.DataFrame(pool.map(row, [models[test.shear] for test in asked], asked))
+    beside = np.array([test.cell for test in asked])
+    write_table(job.output.table, table[~beside].dropna(axis=1))
+    write_table(job.output.sign, table[beside])
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
-from studies.measured.stated import SHEAR
 
 Vector = np.ndarray
 NAMES = "contacts", "binder", "clock"
@@ -23,27 +22,16 @@ class Mechanisms:
         """tables: the files NAMES, as attributes."""
         self.contact, self.binder, self.clock = (pd.read_csv(getattr(tables, name)) for name in NAMES)
 
-    def usual(self, amplitude: float) -> pd.DataFrame:
-        """Haversines of this amplitude of strain, with the stated films, pressure and friction."""
+    def usual(self, amplitude: float, shear: float = 1.0) -> pd.DataFrame:
+        """Haversines of this amplitude of strain, by films of this stiffness in shear, as pressed as is stated."""
         of = self.contact
         stated = (of["haversine"] == 1) & (of["pressure_kPa"] == 10.0) & (of["friction"] == 0.5)
-        stated &= np.isclose(of["shear"], SHEAR)
+        stated &= np.isclose(of["shear"], shear)
         return of[stated & np.isclose(of["amplitude_1e6"], 1e6 * amplitude)]
 
-    def sign(self) -> pd.DataFrame:
-        """What decides whether contacts raise the phase: by the stiffness of films in shear, in one mix, both tests."""
-        of = self.contact
-        one = np.isclose(of["exponent"], 0.3) & (np.abs(of["E_MPa"] / 900.0 - 1.0) < 0.02)
-        one &= np.isclose(of["amplitude_1e6"], 35.0) & (of["pressure_kPa"] == 10.0) & (of["friction"] == 0.5)
-        test = of["haversine"].map({1: "haversine", 0: "tension-compression"})
-        shown = of.assign(test=test, E_percent=100.0 * of["lnE"])[one]
-        names = ["gain_percent", "loss_percent", "cell_gain_percent", "cell_loss_percent"]
-        shown = shown[["test", "shear", "poisson", *names, "E_percent", "change_deg"]]
-        return shown.sort_values(["test", "shear"], ascending=[True, False])
-
-    def contacts(self, modulus: Vector, amplitude: float) -> Vector:
+    def contacts(self, modulus: Vector, amplitude: float, shear: float = 1.0) -> Vector:
         """ln of what is read over E* (n,) [Pa], by grains that slip and open, at an amplitude of strain."""
-        usual = self.usual(amplitude)
+        usual = self.usual(amplitude, shear)
         phase = np.degrees(np.angle(modulus))
         levels, changes = [], []
         for _, row in usual.groupby((np.log(usual["E_MPa"]) / 0.1).round()):

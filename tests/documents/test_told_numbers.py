@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import pytest
 
 from asphalt_nscd.measurements.twopoint import PAPER, bending_share
 from asphalt_nscd.rheology.reconstruct import Sampling
@@ -232,6 +233,24 @@ def test_what_explains_the_excess_phase():
     share = hot.reading_deg / hot.measured_deg
     assert 0.15 < share[37.8] < 0.25 and share[54.4] < 0.05
     assert table.softening_deg.abs().max() < 0.1 and "below 0.1° everywhere" in page("measured")
+
+
+def test_what_decides_the_sign_of_contacts():
+    table, text = published("measured/sign").set_index(["test", "shear"]), page("measured")
+    stiff, weak = (table.loc[("haversine", shear)] for shear in (1.0, 0.03))
+    assert stiff.gain_percent > 0.0 > stiff.change_deg and abs(stiff.poisson) < 0.01
+    assert weak.gain_percent < 0.0 < weak.change_deg and weak.cell_gain_percent > 0.0
+    pulled = table.loc[("tension-compression", 1.0)]
+    for part in ("gain", "loss"):
+        assert pulled[f"{part}_percent"] == pytest.approx(pulled[f"cell_{part}_percent"], abs=1.0)
+    told = f"from {stiff.cell_gain_percent:.0f} to {weak.cell_gain_percent:.0f} %"
+    assert f"of what pressing gains in a cell, {told}" in text
+    all_tests = published("measured/contacts")
+    one = all_tests[
+        (all_tests.E_MPa.round(-2) == 900) & (all_tests.exponent == 0.3) & (all_tests.shear == 0.03)
+    ]
+    others = one[(one.pressure_kPa != 10.0) | (one.friction != 0.5)].query("haversine == 1")
+    assert len(others) == 2 and (others.change_deg > 0.0).all()
 
 
 def test_strains_that_contradict():

@@ -341,14 +341,14 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
     "contacts_sign": [
         Layout(
             {
-                "test": "test",
+                "haversine": "haversine",
                 "shear": "shear",
                 "poisson": "ν",
                 "gain_percent": "gain, %",
                 "cell_gain_percent": "in a cell",
                 "loss_percent": "loss, %",
                 "cell_loss_percent": "in a cell ",
-                "E_percent": "E, %",
+                "lnE": "ln E",
                 "change_deg": "phase, °",
             },
             figures=2,
@@ -365,6 +365,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
                 "reading_deg": "reading",
                 "contacts_deg": "contacts",
                 "softening_deg": "softening",
+                "weak_films_deg": "weak films",
                 "verdict": "verdict",
             },
             figures=3,
