@@ -216,6 +216,8 @@ def test_laws_of_measured_mixes():
     assert f"by {burgers[0]} % of |E\\*| and {burgers[1]} % of the phase; one law for all temp" in readme()
     assert f"temperatures by {one_law[0]} and {one_law[1]} %" in readme()
     assert f"read a haversine, by {as_run[0]} and {as_run[1]} % without a further parameter" in readme()
+    out = table.left_out_isotherm_E_percent
+    assert f"by {out.burgers:.1f}, {out.one_law:.1f} and {out.as_run:.1f} % of |E\\*|" in readme()
     assert table.phase_percent["as_run"] < table.phase_percent["phase_offset"]
     assert table.E_percent["as_run"] < 1.01 * table.E_percent["phase_offset"]
 
@@ -229,18 +231,31 @@ def test_what_explains_the_excess_phase():
     high = ncat.reading_deg[4.0] - ncat.measured_deg[4.0]
     assert f"reading alone is {high:.2f}° too large" in page("measured")
     assert ncat.rms_less_all_deg[4.0] < ncat.rms_less_mean_deg[4.0]
-    assert ncat.contacts_deg[40.0] < 0.0 and (hot.contacts_deg < 0.0).all()
+    told = f"{ncat.contacts_deg[4.0]:.2f}, {ncat.contacts_deg[20.0]:.2f} and {ncat.contacts_deg[40.0]:.2f}° at 4, 20"
+    assert told in page("measured")
+    for column, verb in (
+        ("weak_films_deg", "add"),
+        ("rms_less_weak_films_deg", "leave"),
+        ("rms_less_mean_deg", "leaves"),
+    ):
+        cold, warm, hottest = (f"{ncat[column][at]:.2f}" for at in (4.0, 20.0, 40.0))
+        assert f"{verb} {cold}, {warm} and {hottest}°" in page("measured")
+    both = ncat.reading_deg + ncat.weak_films_deg - ncat.measured_deg
+    assert (both[[4.0, 20.0]] > 2.0 * ncat.standard_error_deg[[4.0, 20.0]]).all()
+    assert f"{ncat.weak_films_deg[4.0]:.1f} to {ncat.weak_films_deg[40.0]:.1f}° if they are weak" in readme()
+    third = hot.weak_films_deg / hot.measured_deg
+    assert 0.28 < third[37.8] < 0.36 and 0.22 < third[54.4] < 0.3
     share = hot.reading_deg / hot.measured_deg
     assert 0.15 < share[37.8] < 0.25 and share[54.4] < 0.05
     assert table.softening_deg.abs().max() < 0.1 and "below 0.1° everywhere" in page("measured")
 
 
 def test_what_decides_the_sign_of_contacts():
-    table, text = published("measured/sign").set_index(["test", "shear"]), page("measured")
-    stiff, weak = (table.loc[("haversine", shear)] for shear in (1.0, 0.03))
+    table, text = published("measured/sign").set_index(["haversine", "shear"]), page("measured")
+    stiff, weak = (table.loc[(1, shear)] for shear in (1.0, 0.03))
     assert stiff.gain_percent > 0.0 > stiff.change_deg and abs(stiff.poisson) < 0.01
     assert weak.gain_percent < 0.0 < weak.change_deg and weak.cell_gain_percent > 0.0
-    pulled = table.loc[("tension-compression", 1.0)]
+    pulled = table.loc[(0, 1.0)]
     for part in ("gain", "loss"):
         assert pulled[f"{part}_percent"] == pytest.approx(pulled[f"cell_{part}_percent"], abs=1.0)
     told = f"from {stiff.cell_gain_percent:.0f} to {weak.cell_gain_percent:.0f} %"

@@ -365,7 +365,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
                 "reading_deg": "reading",
                 "contacts_deg": "contacts",
                 "softening_deg": "softening",
-                "weak_films_deg": "weak films",
+                "weak_films_deg": "weak",
                 "verdict": "verdict",
             },
             figures=3,
