@@ -7,7 +7,8 @@ SOUND = {
     "tests": 72,
     "tested": True,
     "origin": "measured",
-    "scatter": {"from_replicates": True},
+    "scatter": {"from_replicates": True, "modulus_percent": 1.0, "phase_deg": 0.5},
+    "numerics": {"largest_modulus_percent": 0.1},
     "ladder": [],
     "withdrawn": [],
     "estimates": {},
@@ -68,5 +69,25 @@ SURE = {
     "where": None,
     "evidence": "",
     "log10_shift": {},
-    "gain": {"in_sample": {}, "held_out": {}},
+    "p_value": 1e-9,
+    "sentence": "s",
+    "confirmed_by": "metal",
+    "gain": {"in_sample": {"averages_by_temperature": {}}, "held_out": {}},
 }  # of a rung
+LAW_MISSES = {"mre_E_percent": 1.0, "mre_phase_percent": 2.0}  # told, so that no gains of rungs are needed
+
+
+def named(cause, value, unit, std_error=0.1, **then):
+    """A rung of a cause with its size."""
+    return (
+        SURE
+        | {"cause": cause, "parameters": {cause: {"value": value, "std_error": std_error, "unit": unit}}}
+        | then
+    )
+
+
+def of_suspects(used, out):
+    """Suspect tests, some of them used and some left out."""
+    status = ["doubtful"] * used + ["left out"] * out
+    about = {"specimen": "A", "frequency_Hz": 25.0, "reasons": ["x"], "decided_by": "its own isotherm"}
+    return [{**about, "temperature_C": 4.0 + k, "status": told} for k, told in enumerate(status)]

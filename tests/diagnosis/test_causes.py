@@ -4,14 +4,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from contents import SOUND, SURE
 
 from asphalt_nscd.bending.rig import KEYS
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes.drifting_reading import READ_TOO_LARGE, SLOPES
 from asphalt_nscd.diagnosis.model.bases import BurgersAtEach, FlexibleSpectrum
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.words import sentences
 from asphalt_nscd.measurements.twopoint import Geometry, complex_modulus, form_factor, mass_factor
 from asphalt_nscd.rheology.as_run import Programme, modulus_as_read
 from asphalt_nscd.rheology.chain import KelvinChain
@@ -167,33 +165,3 @@ def test_derivatives_of_the_laws(base):
         step = np.eye(x.size)[k] * 1e-5
         above, below = (base.modulus(x + s * step, OMEGA, TABLE.temperature)[0] for s in (1, -1))
         assert np.allclose((above - below) / 2e-5, slope[:, k], rtol=1e-5, atol=1e-7 * np.abs(modulus))
-
-
-@pytest.mark.parametrize(
-    "name, amplitude, meant",
-    [
-        ("channel_delay", 1e-3, "recorded after"),
-        ("channel_delay", -1e-3, "recorded before"),
-        ("phase_offset", 0.5, "too large"),
-        ("phase_offset", -0.5, "too small"),
-        ("moving_mass", 0.2, "too small"),
-        ("moving_mass", -0.2, "too large"),
-        ("temperature_bias", 1.0, "warmer"),
-        ("temperature_bias", -1.0, "colder"),
-        ("specimen_geometry", 0.1, "too high"),
-        ("specimen_geometry", -0.1, "too low"),
-    ],
-)
-def test_sign_of_an_amplitude_is_said(name, amplitude, meant):
-    rung = SURE | {
-        "cause": name,
-        "where": None,
-        "parameters": {"amplitude": {"value": amplitude, "unit": "1", "std_error": None}},
-        "confirmed_by": "c",
-        "p_value": 1e-9,
-    }
-    ((_, said),) = sentences.causes(SOUND | {"ladder": [rung]})
-    assert meant in said.split(".")[0] and said.endswith(
-        "Established, with a probability of 97 %: the chance that scatter alone produces it is below one in a "
-        "million. To confirm it: c."
-    )

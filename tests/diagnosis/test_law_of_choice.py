@@ -13,7 +13,7 @@ from openpyxl import load_workbook
 
 import asphalt_nscd as an
 from asphalt_nscd.cli.diagnose import command
-from asphalt_nscd.diagnosis.words.sentences import causes, law_of_the_mix
+from asphalt_nscd.diagnosis.words.answer import Words
 from asphalt_nscd.diagnosis.written import three_digits
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.reporting.pages.diagnosis_page import PARAMETERS
@@ -79,7 +79,8 @@ def test_intervals_of_the_law_are_the_same_everywhere(folder, content):
 
 
 def test_intervals_of_causes_and_shift_are_those_of_the_page(content):
-    said = [head for head, _ in causes(content)] + [law_of_the_mix(content)[0]]
+    words = Words(content)
+    said = [*words("causes"), *words("law_of_the_mix")]
     numbers = [
         (float(value.replace(" ", "")), float(half))
         for value, half in re.findall(r"(-?[\d.]+) \+- ([\d.]+)", " ".join(said))

@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 
 import asphalt_nscd as an
-from asphalt_nscd.diagnosis.words.brief import rows
+from asphalt_nscd.diagnosis.words.answer import rows
 from asphalt_nscd.exports.formats.xlsx import corrected_workbook
 from asphalt_nscd.reporting.pages.diagnosis_page import write_page
 

@@ -20,7 +20,7 @@ from asphalt_nscd.diagnosis.record.report import physical_limits
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.search.ladder import Ladder
-from asphalt_nscd.diagnosis.words.brief import rows
+from asphalt_nscd.diagnosis.words.answer import rows
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
 from asphalt_nscd.rheology.spectrum_io import read_spectrum

@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis import run
 from asphalt_nscd.diagnosis.content import schema
 from asphalt_nscd.diagnosis.record import report
 from asphalt_nscd.diagnosis.simulation import gain
-from asphalt_nscd.diagnosis.words.summary import summary
+from asphalt_nscd.diagnosis.words.answer import summary
 from asphalt_nscd.diagnosis.written import interval_text, shown, widening
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import Arrhenius

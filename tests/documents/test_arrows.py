@@ -30,7 +30,7 @@ ARROWS = {
         "diagnosis",
     ],
     "study": ["files", "measurements", "rheology", "specimen", "packings", "reporting"],
-    "table_import": ["files", "measurements", "study", "reporting"],
+    "table_import": ["files", "measurements", "forecasting", "study", "reporting"],
     "api": [
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
         "table_import", "packings", "forecasting",

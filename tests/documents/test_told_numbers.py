@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from asphalt_nscd.forecasting.written import MISSED, WORTH
 from asphalt_nscd.measurements.twopoint import PAPER, bending_share
 from asphalt_nscd.rheology.reconstruct import Sampling
 
@@ -289,3 +290,17 @@ def test_page_one_tells_the_forecast_of_mixes_that_set_nothing():
     six = published("forecast/mixes/overall").set_index("forecast")
     for begin, row in (("On six others it misses by", six.loc["forecast"]), ("Hirsch by", six.loc["hirsch"])):
         assert f"{begin} {row.factor_all:.2f} and {row.phase_all_deg:.1f}°" in readme()
+
+
+def test_a_forecast_says_what_the_published_tables_say_of_it():
+    blind = published("forecast/blind_overall").query("temperature_C == '4.4 to 54.4'").set_index("model")
+    six = published("forecast/mixes/overall").set_index("forecast")
+    mixes, others = MISSED.values()
+    for told, row in zip(mixes, (blind.loc["forecast"], blind.loc["hirsch"]), strict=True):
+        assert told == (round(row.factor, 2), round(row.phase_deg, 1))
+    for told, row in zip(others, (six.loc["forecast"], six.loc["hirsch"]), strict=True):
+        assert told == (round(row.factor_all, 2), round(row.phase_all_deg, 1))
+    assert list(MISSED) == [f"{blind.mixes['forecast']} mixes", "six others"]
+    assert (
+        blind.loc["forecast", ["E_in_band", "phase_in_band"]] > 0.9
+    ).all() and "nine in ten or more" in WORTH

@@ -32,6 +32,14 @@ def test_a_grade_is_its_usual_a_and_vts():
     assert grade.law.complex_modulus(OMEGA, 20.0) == pytest.approx(known.law.complex_modulus(OMEGA, 20.0))
 
 
+@pytest.mark.parametrize(("letter", "told"), [("", False), ("S", False), ("E", True), ("V", True)])
+def test_a_grade_with_a_letter_of_traffic(letter, told):
+    """AASHTO M 332: S is the plain grade; of the others the usual viscosity is that of the plain one, and told so."""
+    read = read_binder({"grade": f"PG 64{letter}-22"}, "r")
+    assert (read.law.shift.a, read.law.shift.vts) == GRADES[64][-22]
+    assert (f"PG 64{letter}-22 is taken for PG 64-22" in read.caution) == told
+
+
 def test_stiffer_grades_are_stiffer_where_they_are_named_for():
     """At 40 degC by the high temperature, at -10 degC by the low one."""
     hot = [

@@ -7,6 +7,7 @@ import yaml
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.recipe import read_recipe, recipe_of
 from asphalt_nscd.forecasting.scheme import require_free_binder
+from asphalt_nscd.table_import.shear import read_sweeps
 
 
 def test_the_shipped_recipe_is_read():
@@ -22,31 +23,31 @@ LABORATORY = (
 GRADING = {10: 100, 6: 72, 4: 56, 2: 41, 0.063: 8.8}
 NAN, INF = float("nan"), float("inf")
 BAD = [
-    ("air_voids_percent", 60, "air_voids_percent: 60 is greater than the maximum"),
-    ("air_voids_percent", -3, "air_voids_percent: -3 is less than the minimum"),
+    ("air_voids_percent", 60, "air_voids_percent is 60, but must be at most"),
+    ("air_voids_percent", -3, "air_voids_percent is -3, but must be at least"),
     ("air_voids_percent", 0.06, "air_voids_percent: 0.06 % is less than any mix has; give per cent"),
-    ("air_voids_percent", "6 %", "air_voids_percent: '6 %' is not of type 'number'"),
+    ("air_voids_percent", "6 %", "air_voids_percent is '6 %', but must be a number"),
     ("air_voids_percent", NAN, "air_voids_percent: nan is no finite number"),
-    ("air_voids_percent", None, "air_voids_percent: None is not of type 'number'"),
+    ("air_voids_percent", None, "air_voids_percent is None, but must be a number"),
     ("binder_percent_by_mass", 0.054, "more than grains can"),
-    ("binder_percent_by_mass", 54, "binder_percent_by_mass: 54 is greater than the maximum"),
+    ("binder_percent_by_mass", 54, "binder_percent_by_mass is 54, but must be at most"),
     ("binder_percent_by_mass", NAN, "binder_percent_by_mass: nan is no finite number"),
-    ("binder", 35, "binder: 35 is not of type 'object'"),
+    ("binder", 35, "binder is 35, but must be a mapping"),
     ("binder", {"table": "absent.csv", "poisson": 0.5}, "absent.csv: no such file"),
     ("binder", {"grade": "PG 65-22"}, "binder.grade: no usual viscosity of 'PG 65-22' is known"),
-    ("binder", {"grade": "64-22", "A": 10.98}, "'A' was unexpected"),
-    ("binder", {"A": 10.98}, "binder: 'VTS' is a required property"),
+    ("binder", {"grade": "64-22", "A": 10.98}, "unknown key 'A' in binder; allowed are grade"),
+    ("binder", {"A": 10.98}, "key 'VTS' is missing from binder"),
     ("binder", {"penetration_dmm": 20, "softening_point_C": 25}, "binder.softening_point_C: 25 .* above 30"),
-    ("binder", {"table": "absent.csv", "poisson": 49}, "binder.poisson: 49 is greater"),
-    ("density_kg_m3", {"aggregate": 2.67, "binder": 1.04}, "density_kg_m3.*is less than the minimum"),
-    ("density_kg_m3", {"aggregate": 2670}, "density_kg_m3: 'binder' is a required property"),
-    ("aggregate", {"E_GPa": 0.06, "poisson": 0.2}, "aggregate.E_GPa: 0.06 is less than the minimum"),
-    ("aggregate", {"E_GPa": 60000, "poisson": 0.2}, "aggregate.E_GPa: 60000 is greater than the maximum"),
+    ("binder", {"table": "absent.csv", "poisson": 49}, "binder.poisson is 49, but must be at most 0.5"),
+    ("density_kg_m3", {"aggregate": 2.67, "binder": 1.04}, "density_kg_m3.* but must be at least"),
+    ("density_kg_m3", {"aggregate": 2670}, "key 'binder' is missing from density_kg_m3"),
+    ("aggregate", {"E_GPa": 0.06, "poisson": 0.2}, "aggregate.E_GPa is 0.06, but must be at least"),
+    ("aggregate", {"E_GPa": 60000, "poisson": 0.2}, "aggregate.E_GPa is 60000, but must be at most"),
     ("aggregate", {"E_GPa": NAN, "poisson": 0.2}, "aggregate.E_GPa: nan is no finite number"),
     ("grading", {10: 100, 4: 60, 2: 70, 0.063: 5}, "grading: less passes 4 mm than 2 mm"),
     ("grading", {10: 90, 4: 60, 0.063: 5}, "grading: 90 % passes the largest sieve"),
     ("grading", {10: 1.0, 4: 0.6, 2: 0.4, 0.063: 0.05}, "grading: 1 % passes .* give per cent"),
-    ("grading", {10: 110, 4: 60, 0.063: 5}, "grading.10: 110 is greater than the maximum"),
+    ("grading", {10: 110, 4: 60, 0.063: 5}, "grading.10 is 110, but must be at most"),
     ("grading", {10: 100, 4: NAN, 0.063: 5}, "grading.4: nan is no finite number"),
     ("grading", {10: 100, NAN: 50, 0.063: 5}, "grading: a sieve is no number"),
     ("grading", {10: 100, "10.0": 90, 2: 41, 0.063: 8}, "grading: a sieve is given twice"),
@@ -54,8 +55,8 @@ BAD = [
     ("grading", {k / 1000: v for k, v in GRADING.items()}, "grading: sieves go from .* give them in mm"),
     ("grading", {k * 1000: v for k, v in GRADING.items()}, "grading: sieves go from .* give them in mm"),
     ("grading", {10: 100, 2: 41, 0: 0}, "grading: sieves go from 0 to 10 mm"),
-    ("grading", [[10, 100], [2, 41]], "grading: .* is not of type 'object'"),
-    ("grading", None, "grading: None is not of type 'object'"),
+    ("grading", [[10, 100], [2, 41]], "grading is .*, but must be a mapping"),
+    ("grading", None, "grading is None, but must be a mapping"),
     ("grading", {10: 100, 2: 100, 0.063: 100}, "grading: the filler is 87 % of filler and binder"),
     (
         "grading",
@@ -63,29 +64,42 @@ BAD = [
         "grading: 41 % passes the finest sieve, 2 mm; add finer ones",
     ),
     ("temperatures_C", [40], "temperatures_C: 40 degC, but the binder's law has no shift"),
-    ("temperatures_C", 20, "temperatures_C: 20 is not of type 'array'"),
-    ("temperatures_C", [293], "temperatures_C.0: 293 is greater than the maximum"),
+    ("temperatures_C", 20, "temperatures_C is 20, but must be a list"),
+    ("temperatures_C", [293], "temperatures_C.0. is 293, but must be at most"),
     ("frequencies_Hz", [1, 10], "frequencies_Hz and angular_frequencies_rad_s; give one"),
-    ("angular_frequencies_rad_s", [0, 1], "angular_frequencies_rad_s.0: 0 is less than the minimum"),
-    ("angular_frequencies_rad_s", [1e300], "angular_frequencies_rad_s.0: 1e.300 is greater than the maximum"),
+    ("angular_frequencies_rad_s", [0, 1], "angular_frequencies_rad_s.0. is 0, but must be at least"),
+    ("angular_frequencies_rad_s", [1e300], "angular_frequencies_rad_s.0. is 1e.300, but must be at most"),
     ("angular_frequencies_rad_s", [INF], "angular_frequencies_rad_s.0: inf is no finite number"),
-    ("colour", "black", "'colour' was unexpected"),
+    ("colour", "black", "unknown key 'colour' in the recipe; allowed are name"),
+    (
+        "binder_percent",
+        5,
+        "unknown key 'binder_percent' in the recipe; did you mean 'binder_percent_by_mass'",
+    ),
+    ("binder_percent_by_mass", "4,8", "binder_percent_by_mass is '4,8', but must be a number .*; write 4.8"),
+    ("grading", {10: 100, 0.063: 8}, "grading is .* but must be a mapping of at least 3"),
+    ("grading", {"3/4": 100, 19: 95, "No. 200": 5}, "grading: a sieve is given twice"),
+    ("binder", {"grade": "50/70"}, "of a grade of EN 12591 give penetration_dmm and softening_point_C"),
 ]
 BAD_BINDERS = [
     ("E0_MPa", 1e6, "not below the aggregate's 60 GPa; give E0_MPa in MPa"),
-    ("E0_MPa", 1, "binder.E0_MPa: 1 is less than the minimum of 50"),
+    ("E0_MPa", 1, "binder.E0_MPa is 1, but must be at least"),
     ("E00_MPa", 2000, "binder: needs .* correct it"),
     ("k", 0.7, "binder: needs 0 < k <= h < 1"),
-    ("k", 1.2, "binder.k: 1.2 is greater than or equal"),
+    ("k", 1.2, "binder.k is 1.2, but must be less than 1"),
     ("tau_s", NAN, "binder.tau_s: nan is no finite number"),
     (
         "shift",
         {"wlf_C1": 20, "wlf_C2_K": 20},
         "temperatures_C: WLF shift: it is not defined 20 K below 15 degC",
     ),
-    ("gamma", 3, "binder: .*'gamma' was unexpected"),
-    ("shift", {"wlf_C1": 20}, "binder.shift: 'wlf_C2_K' is a required property"),
-    ("shift", {"activation_energy_J_mol": 150}, "binder.shift.activation_energy_J_mol: 150 is less"),
+    ("gamma", 3, "unknown key 'gamma' in binder"),
+    ("shift", {"wlf_C1": 20}, "key 'wlf_C2_K' is missing from binder.shift"),
+    (
+        "shift",
+        {"activation_energy_J_mol": 150},
+        "binder.shift.activation_energy_J_mol is 150, but must be at least",
+    ),
 ]
 
 
@@ -111,6 +125,19 @@ def test_a_bad_binder_is_refused(content, tmp_path, key, value, said):
     assert re.search(said, refusal(content, tmp_path))
 
 
+def test_sieves_of_astm_e11_by_name(content):
+    named = {'1"': 100, "3/4": 95, "3/8 in": 70, "#4": 48, "No. 8": 32, "no 30": 16, "No.200": 5}
+    millimetres = {25: 100, 19: 95, 9.5: 70, 4.75: 48, 2.36: 32, 0.6: 16, 0.075: 5}
+    read, known = (recipe_of(content | {"grading": sieves}).grading for sieves in (named, millimetres))
+    assert read.sieve == pytest.approx(known.sieve) and (read.passing == known.passing).all()
+
+
+def test_a_sieve_that_yaml_takes_for_a_remark_is_told(tmp_path):
+    (tmp_path / "recipe.yaml").write_text("air_voids_percent: 5\ngrading:\n  3/4: 100\n  #4: 60\n")
+    with pytest.raises(InputError, match="#4 begins a remark in YAML; write No. 4"):
+        read_recipe(tmp_path / "recipe.yaml")
+
+
 def test_a_temperature_that_the_recipe_does_not_state_is_told(content):
     assert "15 °C stands for it" in recipe_of(content).caveat
     content["binder"]["reference_temperature_C"] = 15
@@ -120,14 +147,14 @@ def test_a_temperature_that_the_recipe_does_not_state_is_told(content):
 @pytest.mark.parametrize("missing", ["binder", "air_voids_percent", "binder_percent_by_mass", "grading"])
 def test_what_is_missing_is_named(content, tmp_path, missing):
     del content[missing]
-    assert f"'{missing}' is a required property" in refusal(content, tmp_path) or missing == "grading"
+    assert f"key '{missing}' is missing from the recipe" in refusal(content, tmp_path) or missing == "grading"
 
 
 @pytest.mark.parametrize("text", ["", "- 1\n", "binder: {E00", "binder:\n\tE0_MPa: 5\n"])
 def test_a_file_that_holds_no_recipe_is_refused(tmp_path, text):
     path = tmp_path / "recipe.yaml"
     path.write_text(text)
-    with pytest.raises(InputError, match="see data/forecast/recipe.yaml"):
+    with pytest.raises(InputError, match="forecast --help shows a recipe"):
         read_recipe(path)
 
 
@@ -190,15 +217,14 @@ def test_a_laboratorys_export_is_read_in_its_own_units(content, tmp_path):
     told = [f"{1.8 * t + 32},{2 * np.pi * f},{1e3 * g},{p},{g / f}" for t, f, g, p in rows]
     (tmp_path / "dsr.csv").write_text("\n".join([LABORATORY, *told]) + "\n", encoding="utf-8")
     content |= {"binder": {"table": "dsr.csv", "poisson": 0.45}, "temperatures_C": [-10, 0, 15]}
-    read = recipe_of(content, tmp_path / "recipe.yaml")
+    read = recipe_of(content, tmp_path / "recipe.yaml", read_sweeps)
     omega = np.array([1e-2, 1.0, 100.0])
     assert read.binder.complex_modulus(omega, 15.0) == pytest.approx(
         law.complex_modulus(omega, 15.0), rel=0.02
     )
-    assert "goes from 0 to 60 °C: its law is extrapolated at -10 °C" in read.caveat
+    assert read.beyond(read.temperature).tolist() == [t == -10 for t in read.temperature]
     del content["temperatures_C"]
-    usual = recipe_of(content, tmp_path / "recipe.yaml")
-    assert usual.temperature.min() == 0.0 and usual.caveat == ""
+    assert recipe_of(content, tmp_path / "recipe.yaml", read_sweeps).temperature.min() == 0.0
 
 
 def test_a_binder_that_flows_is_read_down_to_a_hundred_pascals(content, tmp_path):
@@ -210,9 +236,8 @@ def test_a_binder_that_flows_is_read_down_to_a_hundred_pascals(content, tmp_path
             g = law.complex_modulus(np.array([w]), np.array([t]))[0] / 3
             rows.append(f"{t},{w},{abs(g)},{np.degrees(np.angle(g))}")
     (tmp_path / "dsr.csv").write_text("\n".join(rows) + "\n")
-    read = recipe_of(
-        content | {"binder": {"table": "dsr.csv"}, "temperatures_C": [20]}, tmp_path / "recipe.yaml"
-    )
+    asked = content | {"binder": {"table": "dsr.csv"}, "temperatures_C": [20]}
+    read = recipe_of(asked, tmp_path / "recipe.yaml", read_sweeps)
     omega = np.array([1.0, 10.0])
     for temperature, most in ((15.0, 0.1), (65.0, 0.1), (-5.0, 0.5)):
         off = np.log(

@@ -65,6 +65,14 @@ def matrix(show, *, corner=None, across=False, s="A"):
     return [[corner, *FREQUENCIES], *([t, *(show(s, t, f) for f in FREQUENCIES)] for t in TEMPERATURES)]
 
 
+def one_quantity(title, show):
+    rows = [
+        [t if f == 10.0 else None, f, *(show(s, t, f) for s in "AB"), show("A", t, f)]
+        for t, f in conditions()
+    ]
+    return [[title], [*KEYS, "T1", "T2", "Mean"], *rows]
+
+
 def at_temperatures(name, phase_name):
     names = ["Specimen", "f (Hz)"]
     names += [name.format(t) for t in TEMPERATURES] + [phase_name.format(t) for t in TEMPERATURES]
@@ -125,6 +133,26 @@ FILES = {
     "remarks beside": (
         [[*row, None, "Air voids", 5.1] if n in (1, 3) else row
          for n, row in enumerate(long([*KEYS, "E* (MPa)", "phi (°)"]))], TESTS),
+    "units below, the mix above": (
+        [["Mischgut:", "AC 22 T S 30/45"], ["Probekörper", "Prüftemperatur", "Frequenz", "Steifigkeitsmodul |E*|",
+                                            "Phasenwinkel"], ["", "°C", "Hz", "MPa", "°"], *long([])[1:]], TESTS),
+    "means at the end, named once": (
+        [["Core", *KEYS, "E* (MPa)", "phi (°)"],
+         *([s if (t, f) == (4.0, 10.0) else None, t if f == 10.0 else None, f, e, p]
+           for (s, t, f), (e, p) in TESTS.items()),
+         *(["Mittelwert" if f == 10.0 else None, 21.0, f, 9000, 21.0] for f in FREQUENCIES)], TESTS),
+    "specimens across, quantities below each other": (
+        [["EN 12697-26 (2PB-TR) - Complex modulus"], *one_quantity("Complex modulus |E*| [MPa]", modulus), [],
+         *one_quantity("Phase angle φ [°]", phase)], TESTS),
+    "specimens across, a sheet for each quantity": (
+        {"E": one_quantity("Complex modulus |E*| [MPa]", modulus), "P": one_quantity("Phase [°]", phase)}, TESTS),
+    "names over two lines below titles": (
+        [["EN 12697-26 (2PB-TR) - Complex modulus"], ["Mixture: EME2"], [],
+         [None, None, "Complex modulus |E*| [MPa]", None, "Phase angle φ [°]", None], [*KEYS, "T1", "T2", "T1", "T2"],
+         *replicates("", merged=True)[2:]], TESTS),
+    "E* T1 (MPa)": (
+        [[*KEYS, "E* T1 (MPa)", "E* T2 (MPa)", "phase T1 (°)", "phase T2 (°)", "Mean"],
+         *([*row, 1] for row in replicates("")[2:])], TESTS),
     "E1 and E2": (long([*KEYS, "E1 (MPa)", "E2 (MPa)"], parts), TESTS),
 }  # fmt: skip
 

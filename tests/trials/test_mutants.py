@@ -23,7 +23,9 @@ def unbound(text: str) -> set[str]:
 @pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: mutant.what)
 def test_each_mutant_changes_its_file_once_and_has_its_tests(mutant):
     text = (ROOT / PACKAGE / mutant.file).read_text(encoding="utf-8")
-    assert text.count(mutant.right) == 1 and not unbound(text.replace(mutant.right, mutant.wrong))
+    assert text.count(mutant.right) == 1
+    # Of a template no name is bound here.
+    assert not mutant.file.endswith(".py") or not unbound(text.replace(mutant.right, mutant.wrong))
     assert mutant.right != mutant.wrong and (ROOT / "tests" / mutant.tests).is_file()
 
 

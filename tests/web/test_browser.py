@@ -19,7 +19,7 @@ pytest.importorskip("flask")
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(find() is None, reason="no Chromium on this machine")]
 
 EVIL = "<img src=x onerror=\"document.title='owned'\">"
-SECONDS = 300.0
+SECONDS = 900.0  # of a machine with other work
 
 
 @pytest.fixture
@@ -141,7 +141,7 @@ def test_from_drop_to_download(page, address, tmp_path):
         == "60 tests of 3 specimens (A, B, C) in t.xlsx"
     )
     choose(page, "document.getElementById('kind')", "tension-compression")
-    until(page, "document.getElementById('notes').textContent.length > 0")
+    until(page, "!document.getElementById('notes').textContent.includes('is not said')")
     for width in (1280, 390):
         look(page, "read", width, dark=width == 390)
     page.evaluate("document.getElementById('go').click()")
@@ -153,7 +153,7 @@ def test_from_drop_to_download(page, address, tmp_path):
     with urllib.request.urlopen(pdf) as answer:
         assert answer.read(5) == b"%PDF-"
     assert {"law_abaqus.inp", "law_ansys.inp", "law_comsol.txt", "law_mepdg.csv", "law_xlsx.xlsx"} <= names
-    page.call("Page.reload")  # keeps the answer
+    page.load("Page.reload")  # keeps the answer
     until(page, "document.getElementById('result')?.hidden === false")
     for width in (1280, 390):
         for dark in (False, True):

@@ -172,7 +172,7 @@ def test_a_huge_row_number_is_refused_at_once(tmp_path):
         for name, content in parts.items():
             archive.writestr(name, content.replace(b'<row r="5"', b'<row r="1000000000000"'))
     before = time.process_time()
-    with pytest.raises(InputError, match="names row 1000000000000, which none has"):
+    with pytest.raises(InputError, match="values in row 1000000000000"):
         read_tables([path], Choices())
     assert time.process_time() - before < 2.0
 

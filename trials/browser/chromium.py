@@ -100,8 +100,12 @@ class Page:
             deviceScaleFactor=1,
             mobile=width < 600,
         )
+        self.load("Page.navigate", url=address)
+
+    def load(self, method: str, **parameters: Any) -> None:
+        """What loads a page, done whole: until then the one before answers."""
         before = len(self.events)
-        self.call("Page.navigate", url=address)
+        self.call(method, **parameters)
         while not any(event.get("method") == "Page.loadEventFired" for event in self.events[before:]):
             self.events.append(self._read())
 

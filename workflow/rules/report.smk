@@ -215,7 +215,7 @@ rule report:
         ],
         beside=[f"<results>/{name}.csv" for name in ("rivals", "ensemble") if name in PAGES],
         code=code("report"),
-        template=page_files("report.html"),
+        template=page_files("report.html", "first_page.html"),
     output:
         "<results>/report.html",
     log:

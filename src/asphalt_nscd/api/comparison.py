@@ -18,7 +18,7 @@ from asphalt_nscd.diagnosis.machine.pooled import pool
 from asphalt_nscd.diagnosis.observed.copies import refuse_copied_campaign
 from asphalt_nscd.diagnosis.record.reported import EN_12697_26, master_curve
 from asphalt_nscd.diagnosis.settings import Draws, Known
-from asphalt_nscd.diagnosis.words import brief, sentences
+from asphalt_nscd.diagnosis.words import sentences
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_table
 
@@ -85,14 +85,14 @@ class Comparison:
             likely = [
                 f"{sentences.cause_words(rung)} ({sentences.probability(rung)})"
                 for rung in named
-                if not brief.sure(rung)
+                if not rung["established"]
             ]
             rows.append(
                 {
                     "mix": name,
                     **content["reported"],
                     "verdict": diagnosis.verdict,
-                    "causes": ", ".join(sentences.cause_words(rung) for rung in named if brief.sure(rung)),
+                    "causes": ", ".join(sentences.cause_words(rung) for rung in named if rung["established"]),
                     "possible_causes": ", ".join(likely),
                     "tests": content["tests"],
                     "check_first": content["trust"]["check"],

@@ -22,8 +22,7 @@ from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY
 from asphalt_nscd.diagnosis.record.measured_limits import Progress, Trials, verify
 from asphalt_nscd.diagnosis.run import Outcome, Stated, conclude
 from asphalt_nscd.diagnosis.settings import Draws, Known, Simulated
-from asphalt_nscd.diagnosis.words.brief import rows
-from asphalt_nscd.diagnosis.words.summary import answer, summary
+from asphalt_nscd.diagnosis.words.answer import answer, rows, summary
 from asphalt_nscd.diagnosis.written import mean_averages, read_diagnosis
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file

@@ -17,6 +17,7 @@ from asphalt_nscd.forecasting import written
 from asphalt_nscd.forecasting.forecast import Forecast as ForecastOfRecipe
 from asphalt_nscd.forecasting.forecast import forecast as forecast_of
 from asphalt_nscd.forecasting.recipe import read_recipe, recipe_of
+from asphalt_nscd.table_import.shear import read_sweeps
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -156,7 +157,8 @@ def forecast(recipe: str | Path | Mapping[str, Any]) -> Forecast:
     [6880.0, 20.0]
     >>> forecast({"name": "a mix"})
     Traceback (most recent call last):
-    asphalt_nscd.files.errors.InputError: recipe: 'binder' is a required property; see data/forecast/recipe.yaml.
+    asphalt_nscd.files.errors.InputError: recipe: key 'binder' is missing from the recipe; add it.
     """
-    asked = recipe_of(recipe) if isinstance(recipe, Mapping) else read_recipe(recipe)
-    return Forecast(forecast_of(asked))
+    if isinstance(recipe, Mapping):
+        return Forecast(forecast_of(recipe_of(recipe, read_table=read_sweeps)))
+    return Forecast(forecast_of(read_recipe(recipe, read_sweeps)))

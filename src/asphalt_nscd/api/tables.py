@@ -53,7 +53,10 @@ def campaign_in(
         For what holds no tests, or a test type that is not known.
     """
     if measured_in not in (None, *TEST_TYPES):
-        raise InputError(f"measured_in {measured_in!r} is not known; give one of {', '.join(TEST_TYPES)}.")
+        raise InputError(
+            f"measured_in {measured_in!r} is not known; give one of {', '.join(TEST_TYPES)}, or none for "
+            "another test."
+        )
     if isinstance(measurements, Campaign):
         return measurements if measured_in is None else replace(measurements, test_type=measured_in)
     if isinstance(measurements, pd.DataFrame):

@@ -211,7 +211,11 @@ GEOMETRY = option("Trapezoidal specimen.", type=Geometry())
 CYCLES = option(
     "Number of whole cycles used, at the end of a record; else those of the last 10 s.", None, low=1
 )
-MEASURED_IN = option("Test that gave the moduli; else what the files say.", None, choices=list(TEST_TYPES))
+MEASURED_IN = option(
+    "Test that gave the moduli, 2PB-TR or axial; else what the files say. Leave out for others (4PB-PR, IT-CY).",
+    None,
+    choices=list(TEST_TYPES),
+)
 ONLY_MIX = option("The only mix to read of tables with a column of mixes.", None)
 SHEET = option("The only sheet of a workbook to read; else all that hold tests.", None)
 COLUMNS = option(

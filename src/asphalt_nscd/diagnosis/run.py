@@ -33,7 +33,7 @@ from asphalt_nscd.diagnosis.settings import Draws, Simulated
 from asphalt_nscd.diagnosis.simulation import bond_mapping, gain
 from asphalt_nscd.diagnosis.simulation.numerics import numerical_errors
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen, read_specimen
-from asphalt_nscd.diagnosis.words.summary import answer
+from asphalt_nscd.diagnosis.words.answer import answer
 from asphalt_nscd.diagnosis.written import name_at
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table

@@ -160,30 +160,18 @@ def interval_95(value: float, error: float, factor: float = 1.0, of_logarithm: b
     return [value - factor * CONFIDENCE * error, value + factor * CONFIDENCE * error]
 
 
-def place_name(where: str | float | None) -> str:
-    """Where a cause sits, in words: a specimen or an isotherm [degC]; empty for all tests (None)."""
-    if where is None:
-        return ""
-    return specimen_named(where) if isinstance(where, str) else f"{where:g} °C".replace("-", "\N{MINUS SIGN}")
+def cause_at(cause: str, place: object) -> str:
+    """A cause and its place in words: `temperature bias at 30 degC`, `loose clamp of specimen 2`."""
+    words = cause.replace("_", " ")
+    if place is None:
+        return words
+    return (
+        f"{words} at {place:g} degC"
+        if isinstance(place, float)
+        else f"{words} of {specimen_named(str(place))}"
+    )
 
 
-def name_at(cause: str, place: str | float | None) -> str:
+def name_at(cause: str, place: object) -> str:
     """`cause @ place`, or `cause` alone for all tests (None); a place is a specimen or an isotherm [degC]."""
     return cause if place is None else f"{cause} @ {place}"
-
-
-def limits_by_place(cause: str, limit: Mapping[str, Any]) -> dict[str, float]:
-    """Detection limits of one cause by the `place_name` of its places."""
-    if "places" not in limit:
-        return {place_name(None): limit["value"]}
-    return {_place(cause, place): value for place, value in limit["places"].items()}
-
-
-def member_name(member: str) -> str:
-    """A member `cause @ place` of a list of causes in words: `temperature bias (30 °C)`."""
-    cause, _, place = member.partition(" @ ")
-    return cause.replace("_", " ") + (f" ({_place(cause, place)})" if place else "")
-
-
-def _place(cause: str, written: str) -> str:
-    return place_name(float(written) if CONFINED_TO.get(cause) == "temperature_C" else written)

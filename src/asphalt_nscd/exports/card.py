@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Callable
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_UP, Context, Decimal
+from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from jinja2 import Environment, PackageLoader, StrictUndefined
 from numpy.typing import NDArray
 
 from asphalt_nscd import __version__
@@ -19,6 +22,7 @@ from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import MaxwellSeries, series_of
 from asphalt_nscd.rheology.maxwell_fitting import Miss, fit_series, miss
+from asphalt_nscd.rheology.shift import ZERO_CELSIUS
 from asphalt_nscd.rheology.spectrum_io import student
 
 POISSON = 0.35  # of the bonds of Quezada & Chazallon (2020)
@@ -128,101 +132,64 @@ class Card:
         return f"{self.achieved()} over {self.law.band}{shift}; {self.poisson_said()}.{far}"
 
     def statements(self) -> list[str]:
-        """What a reader must know, one sentence an item."""
-        law, units = self.law, self.settings.units
-        low, high = law.reduced_band()
-        said = [
-            f"Linear viscoelastic law of an asphalt mix, written by asphalt-nscd {__version__} from {law.path.name}.",
-            f"Law: {law.name}; source: {law.source}.",
-            "Parameters: " + ", ".join(self._parameter(key) for key in law.parameters) + ".",
-            f"{self._tests()} {law.loose()}",
-            f"Units: {units.name}; temperature in degC.",
-            f"Series: {self.achieved()}, against the law"
-            + (" (the law's own exact form)." if self.exact else "."),
-            f"Band of these errors: {law.band}"
-            + (f", that is {low:.4g} to {high:.4g} rad/s at {law.temperature:g} degC." if law.shift else "."),
-            *self._uncertain(),
-            f"Instantaneous modulus {self._modulus(self.series.instantaneous)}, long-term modulus "
-            f"{self._modulus(self.series.long_term)}." + self._limits(),
-            f"{self.poisson_said()}, constant in time: shear and bulk moduli relax alike.",
-        ]
-        if law.kind == "kelvin_chain":
-            said.append("A chain of bonds: its moduli may hold the factor that makes up for a packing.")
-        if law.shift is None:
-            said.append(f"Holds at {law.temperature:g} degC only: the law has no shift.")
-        else:
-            said.append(f"Shift: {self._shift()}")
-        return said
-
-    def comment(self, sign: str) -> list[str]:
-        """The statements as ASCII lines of comment, each of which begins with `sign`."""
-        return [
-            # ASCII: none of these programs was run, and a name may hold any letter.
-            f"{sign} {line}".encode("ascii", "replace").decode()
-            for statement in self.statements()
-            for line in textwrap.wrap(statement, WIDTH, subsequent_indent="  ")
-        ]
-
-    def _parameter(self, key: str) -> str:
-        low_high = self.law.intervals.get(key)
-        said = f" ({low_high[0]:.4g} to {low_high[1]:.4g})" if low_high else ""
-        return f"{key} = {self.law.parameters[key]:.6g}{said}"
-
-    def _uncertain(self) -> list[str]:
-        """How sure the law and the moduli of the series are."""
-        low, high = self.law.reduced_band()
-        band, moduli = self.law.half_widths(np.geomspace(low, high, 30)), self.half_widths
-        if band is None or moduli is None:
-            return []
-        sizes = ", ".join(f"{self.settings.units.express(half):.3g}" for half in moduli)
-        return [
-            "Behind a parameter: its 95 % interval.",
-            f"95 % interval of the law in the band: {100.0 * np.expm1(band.real.min()):.2g} to "
-            f"{100.0 * np.expm1(band.real.max()):.2g} % of |E*| to either side, {np.degrees(band.imag.min()):.2g} to "
-            f"{np.degrees(band.imag.max()):.2g} deg of the phase.",
-            f"95 % intervals of the moduli at these relaxation times, long-term modulus first: +- {sizes} "
-            f"{self.settings.units.stress}. Errors of neighbours cancel: together they are those of the law.",
-        ]
-
-    def _tests(self) -> str:
-        """How far the law itself is from the tests it was fitted to."""
-        rms = self.law.rms_log_residual
-        if rms is None:
-            return "The file does not say how far the law is from tests."
-        return f"The law itself is {100.0 * rms:.2g} % (root mean square of |ln E*|) from the tests it was fitted to."
-
-    def _modulus(self, modulus: float) -> str:
-        return f"{self.settings.units.express(modulus):.6g} {self.settings.units.stress}"
-
-    def _limits(self) -> str:
-        """Why the limits of the series are not those of the law."""
-        if self.exact:
-            if self.series.long_term == 0.0:
-                return " The law flows."
-            # 1.01 for rounding: such a series was given just this share.
-            flows = self.series.long_term < 1.01 * LEAST_LONG_TERM * self.series.instantaneous
-            return (
-                f" The law flows; {LEAST_LONG_TERM:g} of the instantaneous modulus stands for none."
-                if flows
-                else ""
-            )
-        keys = ("E_glassy_Pa", "E_static_Pa")
-        limits = [self.law.parameters.get(key) for key in keys]
-        if None in limits:
-            return " Outside the band the series does not follow the law."
-        glassy, static = (self._modulus(limit) for limit in limits if limit is not None)
-        return (
-            f" Outside the band the series does not follow the law, whose limits are {glassy} and {static}."
+        """What a reader must know, one sentence or more an item."""
+        return statements(
+            "statements.j2",
+            card=self,
+            law=self.law,
+            modulus=lambda pascals: (
+                f"{self.settings.units.express(pascals):.6g} {self.settings.units.stress}"
+            ),
+            band_of=lambda low, high: np.geomspace(low, high, 30),
+            percent_of=lambda half: tuple(100.0 * np.expm1([half.min(), half.max()])),
+            degrees_of=lambda half: tuple(np.degrees([half.min(), half.max()])),
+            least=LEAST_LONG_TERM,
         )
 
-    def _shift(self) -> str:
-        wlf = self.law.wlf()
-        assert wlf is not None
-        form = "log10 a_T = -C1 (T - T0) / (C2 + T - T0), relaxation times are multiplied by a_T"
-        constants = f"T0 = {wlf.reference_temperature:g} degC, C1 = {wlf.c1:.6g}, C2 = {wlf.c2:.6g} K"
-        if wlf is self.law.shift:
-            return f"{form}; {constants}."
-        return f"{form}; {constants}, which are the Arrhenius shift of the law written as WLF, without approximation."
+    def text(self, template: str) -> str:
+        """The card by a template of this folder, in which `comment` makes comments of the statements."""
+        series = self.series
+        return (
+            _templates()
+            .get_template(template)
+            .render(
+                card=self,
+                series=series,
+                terms=list(zip(series.weights, series.times, strict=True)),
+                moduli=list(zip(series.moduli, series.times, strict=True)),
+                wlf=self.law.wlf(),
+                express=self.settings.units.express,
+                comment=lambda sign: comment(sign, self.statements()),
+                zero_celsius=ZERO_CELSIUS,
+            )
+        )
+
+
+@cache
+def _templates() -> Environment:
+    made = Environment(
+        loader=PackageLoader("asphalt_nscd", "exports"),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+        autoescape=False,  # noqa: S701  of text
+    )
+    made.filters["number"] = number
+    return made
+
+
+def statements(template: str, **content: Any) -> list[str]:
+    """The statements of a template, which a pilcrow ends, each without line breaks."""
+    text = _templates().get_template(template).render(version=__version__, **content)
+    return [" ".join(said.split()) for said in text.split("¶") if said.strip()]
+
+
+def comment(sign: str, said: Sequence[str]) -> str:
+    """Statements as ASCII lines of comment, each of which begins with `sign`."""
+    lines = (line for one in said for line in textwrap.wrap(one, WIDTH, subsequent_indent="  "))
+    # ASCII: none of these programs was run, and a name may hold any letter.
+    return "\n".join(f"{sign} {line}" for line in lines).encode("ascii", "replace").decode()
 
 
 def make_card(law: ExportedLaw, settings: Settings) -> Card:
@@ -265,11 +232,9 @@ def _short(value: float) -> str:
     return f"{float(Context(prec=2, rounding=ROUND_UP).create_decimal(Decimal(value))):.2g}"
 
 
-def write_card(
-    law: ExportedLaw, settings: Settings, path: Path, text: Callable[[Card], str], solid: bool = False
-) -> str:
-    """Write the card of a law as text; a line on it. `solid`: the program wants a solid at infinite time."""
+def write_card(law: ExportedLaw, settings: Settings, path: Path, template: str, solid: bool = False) -> str:
+    """Write the card of a law by a template; a line on it. `solid`: the program wants a solid at infinite time."""
     card = make_card(law, settings)
     card = card.solid() if solid else card
-    path.write_text(text(card), encoding="utf-8")
+    path.write_text(card.text(template), encoding="utf-8")
     return card.told()

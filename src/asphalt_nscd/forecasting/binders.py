@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -11,8 +12,9 @@ import numpy as np
 from scipy.optimize import brentq, least_squares
 from scipy.special import expit, logit
 
+from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecasting.rheometer import read_rheometer
+from asphalt_nscd.forecasting.rheometer import TableReader, read_rheometer
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF, ZERO_CELSIUS, Arrhenius
 from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
@@ -161,12 +163,12 @@ def crossover_of(viscosity: float) -> float:
     return float(10.0 ** brentq(off, -20.0, 20.0))
 
 
-def read_binder(content: Mapping[str, Any], path: str | Path) -> Binder:
+def read_binder(content: Mapping[str, Any], path: str | Path, read_table: TableReader = read_csv) -> Binder:
     """The binder of a recipe, in the form that its keys tell; `path` is the recipe's."""
     if "table" in content:
-        return _measured(Path(path).parent / content["table"], content.get("poisson", 0.5))
+        return _measured(Path(path).parent / content["table"], read_table, content.get("poisson", 0.5))
     if "grade" in content:
-        return _viscous(*_of_grade(content["grade"], path))
+        return _of_grade(content["grade"], path)
     if "A" in content:
         return _viscous(content["A"], content["VTS"])
     if "penetration_dmm" in content:
@@ -183,17 +185,25 @@ def _viscous(a: float, vts: float) -> Binder:
     return Binder(ViscosityLaw(ViscosityShift(a, vts)), shifted=True)
 
 
-def _of_grade(grade: str, path: str | Path) -> tuple[float, float]:
-    """Usual A and VTS of a performance grade, as "PG 64-22"."""
-    high, _, low = grade.upper().removeprefix("PG").strip().partition("-")
-    try:
-        return GRADES[int(high)][-int(low)]
-    except (KeyError, ValueError):
+def _of_grade(grade: str, path: str | Path) -> Binder:
+    """A binder of the usual A and VTS of a performance grade, as "PG 64-22"; that of AASHTO M 332 has a letter more."""
+    given = re.fullmatch(r"(?:PG)?\s*(\d+)\s*([SHVE]?)\s*-\s*(\d+)", grade.strip().upper())
+    high, traffic, low = given.groups() if given else ("0", "", "0")
+    usual = GRADES.get(int(high), {}).get(-int(low))
+    if usual is None:
         known = ", ".join(f"{h}{min(lows, key=abs)} to {h}{max(lows, key=abs)}" for h, lows in GRADES.items())
-        raise InputError(
-            f"{path}: binder.grade: no usual viscosity of {grade!r} is known; give one of PG {known} in steps of 6, "
-            f"or A and VTS."
-        ) from None
+        european = re.fullmatch(r"\d+\s*/\s*\d+", grade.strip())
+        mend = (
+            "of a grade of EN 12591 give penetration_dmm and softening_point_C in place of grade"
+            if european
+            else f"give one of PG {known} in steps of 6, or A and VTS, or penetration_dmm and softening_point_C"
+        )
+        raise InputError(f"{path}: binder.grade: no usual viscosity of {grade!r} is known; {mend}.")
+    caution = (
+        f"PG {high}{traffic}-{low} is taken for PG {high}-{low}: its letter asks for less flow at {high} °C, so that a "
+        f"warm mix may be stiffer than told; a table of a rheometer tells."
+    )
+    return replace(_viscous(*usual), caution=caution if traffic in tuple("HVE") else "")
 
 
 def _of_penetration(content: Mapping[str, float], path: str | Path) -> tuple[float, float]:
@@ -224,9 +234,9 @@ def _shift(content: Mapping[str, Any]) -> WLF | Arrhenius:
     return Arrhenius(of["activation_energy_J_mol"], reference)
 
 
-def _measured(path: Path, poisson: float) -> Binder:
+def _measured(path: Path, read_table: TableReader, poisson: float) -> Binder:
     """2S2P1D law with a WLF shift of Young's modulus, E = 2 (1 + nu) G, fitted to the table of a rheometer."""
-    temperature, omega, shear = read_rheometer(path)
+    temperature, omega, shear = read_rheometer(path, read_table)
     known = np.unique(temperature)
     modulus, glassy = 2.0 * (1.0 + poisson) * shear, 2.0 * (1.0 + poisson) * GLASSY
     try:

@@ -9,14 +9,17 @@ import numpy as np
 from asphalt_nscd.forecasting.recipe import Grading, Recipe
 from asphalt_nscd.forecasting.scheme import FILLER, USUAL, Settings, modulus_of_mix, require_free_binder
 
-# What an input may be off by, in words; each changes |E*| by so much as `Forecast.moved` tells.
+# What an input of the recipe may be off by, and a number of the model, in words; each changes |E*| by so much as
+# `Forecast.moved` tells.
 INPUTS = {
     "voids": "the air voids, + 0.5 %",
     "binder": "the binder content, + 0.2 %",
     "filler": "the share of filler, + 1 %",
-    "rigden": "the voids of its filler, + 5 %",
-    "stiffness": "the binder's frequencies, x 2",
+    "rigden": "the voids of the dry filler, + 5 %",
+    "stiffness": "a binder stiffer as at twice the frequency",
     "aggregate": "the modulus of the aggregate, x 1.25",
+}
+OF_THE_MODEL = {
     "contacts": "the number of contacts, x 1.5",
     "gap": "the gap in contacts, x 3",
     "pressure": "the pressure in dry contacts, / 3",
@@ -34,7 +37,8 @@ BAND = {
 class Forecast:
     """E* (n,) [Pa] of the mix at the points of its recipe.
 
-    `moved` (n,) is the change of ln E* by each of INPUTS, its real part of |E*| and its imaginary part of the phase.
+    `moved` (n,) is the change of ln E* by each of INPUTS and OF_THE_MODEL, its real part of |E*| and its imaginary part
+    of the phase.
     """
 
     recipe: Recipe
@@ -56,7 +60,7 @@ class Forecast:
 
 
 def forecast(recipe: Recipe, settings: Settings = USUAL) -> Forecast:
-    """E* of the mix of a recipe, and what each of INPUTS moves."""
+    """E* of the mix of a recipe, and what each of INPUTS and OF_THE_MODEL moves."""
     require_free_binder(recipe)
     modulus = _modulus(recipe, settings)
     moved = {
@@ -72,7 +76,7 @@ def _modulus(recipe: Recipe, settings: Settings, faster: float = 1.0) -> np.ndar
 
 
 def _changed(recipe: Recipe, settings: Settings) -> dict[str, tuple[Recipe, Settings]]:
-    """Recipe and settings with one of INPUTS changed."""
+    """Recipe and settings with one of INPUTS or OF_THE_MODEL changed."""
     stiffer = replace(recipe.aggregate, modulus=1.25 * recipe.aggregate.modulus)
     more = replace(settings, contacts=1.5 * settings.contacts)
     return {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from importlib.resources import files
@@ -11,17 +12,36 @@ from typing import Any
 import numpy as np
 import yaml
 from jsonschema import Draft202012Validator
-from jsonschema.exceptions import best_match
 
+from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import require_readable
+from asphalt_nscd.files.schema_words import first_wrong, sentence_on
 from asphalt_nscd.forecasting.binders import UNSTATED, Binder, BinderLaw, Blend, read_binder
+from asphalt_nscd.forecasting.rheometer import TableReader
 from asphalt_nscd.forecasting.solid import Solid
 
 DEFAULT_FREQUENCIES = (0.1, 0.3, 1.0, 3.0, 10.0, 25.0)  # Hz
 DEFAULT_TEMPERATURES = (-10.0, 0.0, 10.0, 15.0, 20.0, 30.0, 40.0)  # degC, of a binder with a shift
+WOBBLE = 0.5  # K, of the temperatures of a table about what was set
 COARSE = 0.5e-3  # m, the coarsest sieve of a grading at least
 FINE = 0.15e-3  # m, the finest sieve of a grading at most, unless nothing passes it
+NUMBERED = {  # mm, of the sieves of ASTM E11
+    "4": 4.75, "6": 3.35, "8": 2.36, "10": 2.0, "12": 1.7, "16": 1.18, "20": 0.85, "30": 0.6, "40": 0.425, "50": 0.3,
+    "60": 0.25, "80": 0.18, "100": 0.15, "140": 0.106, "200": 0.075, "230": 0.063,
+}  # fmt: skip
+INCHES = {
+    "3": 75.0,
+    "2 1/2": 63.0,
+    "2": 50.0,
+    "1 1/2": 37.5,
+    "1": 25.0,
+    "3/4": 19.0,
+    "1/2": 12.5,
+    "3/8": 9.5,
+    "1/4": 6.3,
+}
+EXAMPLE = "asphalt-nscd forecast --help shows a recipe"
 LEAST_VOIDS = 0.15  # per cent, if any: less is a share of one
 DENSEST = 0.97  # of the volume without air: more solids than any mix has
 USUAL: dict[
@@ -50,9 +70,9 @@ class Recipe:
     """What a mix is made of.
 
     `binder` is the law of Young's modulus, `shifted` where it holds at other temperatures than its reference; `caveat`
-    says what a reader must know of it. `binder_share` of the mass, `voids` of the volume of the mix; `rigden_voids` of
-    compacted filler; densities in kg/m3; `temperature` [degC] and `frequency` [Hz] (n,) of each point of the forecast.
-    `file` is for messages.
+    says what a reader must know of it; `measured` [degC] is the range of its table, if it has one. `binder_share` of
+    the mass, `voids` of the volume of the mix; `rigden_voids` of compacted filler; densities in kg/m3; `temperature`
+    [degC] and `frequency` [Hz] (n,) of each point of the forecast. `file` is for messages.
     """
 
     name: str
@@ -70,6 +90,7 @@ class Recipe:
     temperature: np.ndarray
     frequency: np.ndarray
     rigden_voids: float = 0.35
+    measured: tuple[float, float] | None = None
 
     @property
     def aggregate_fraction(self) -> float:
@@ -77,32 +98,39 @@ class Recipe:
         stone = (1.0 - self.binder_share) / self.aggregate_density
         return stone / (stone + self.binder_share / self.binder_density)
 
+    def beyond(self, temperature: np.ndarray) -> np.ndarray:
+        """Whether the binder's table does not reach to temperatures (n,) [degC]."""
+        return _beyond(self.measured, temperature)
+
     def binder_modulus(self) -> np.ndarray:
         """E* [Pa] of the binder at each point."""
         return self.binder.complex_modulus(2.0 * np.pi * self.frequency, self.temperature)
 
 
-def read_recipe(path: str | Path) -> Recipe:
-    """Read and check a recipe, a YAML file as data/forecast/recipe.yaml."""
+def read_recipe(path: str | Path, read_table: TableReader = read_csv) -> Recipe:
+    """Read and check a recipe, a YAML file; `read_table` as in `read_rheometer`."""
     require_readable(path, "check the path of the recipe")
     try:
-        content = yaml.safe_load(Path(path).read_text(encoding="utf-8"))
+        text = Path(path).read_text(encoding="utf-8")
+        if number := re.search(r"(?:^|[\s{,])#(\d+)\s*:", text):
+            raise InputError(
+                f"{path}: #{number[1]} begins a remark in YAML; write No. {number[1]} for the sieve."
+            )
+        content = yaml.safe_load(text)
     except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: not YAML ({error}); see data/forecast/recipe.yaml.") from None
-    return recipe_of(content, path)
+        raise InputError(f"{path}: not YAML ({' '.join(str(error).split())}); {EXAMPLE}.") from None
+    return recipe_of(content, path, read_table)
 
 
-def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
+def recipe_of(content: Any, path: str | Path = "recipe", read_table: TableReader = read_csv) -> Recipe:
     """The recipe, checked, in a mapping as its YAML file has it; `path` is its name in messages."""
     schema = yaml.safe_load((files(__package__) / "recipe.schema.yaml").read_text(encoding="utf-8"))
     if not isinstance(content, Mapping):
-        raise InputError(f"{path}: holds no mapping; see data/forecast/recipe.yaml.")
+        raise InputError(f"{path}: holds no keys with values; {EXAMPLE}.")
     content = dict(content) | {"grading": _keyed(content.get("grading"), path)}
     _require_finite(content, path)
-    error = best_match(Draft202012Validator(schema).iter_errors(content))
-    if error is not None:
-        at = ": ".join([str(path), *filter(None, [".".join(map(str, error.absolute_path))])])
-        raise InputError(f"{at}: {error.message}; see data/forecast/recipe.yaml.")
+    if wrong := first_wrong(Draft202012Validator(schema).iter_errors(content)):
+        raise InputError(f"{path}: {sentence_on(wrong, 'the recipe')}")
     if 0.0 < content["air_voids_percent"] < LEAST_VOIDS:
         raise InputError(
             f"{path}: air_voids_percent: {content['air_voids_percent']:g} % is less than any mix has; give per cent, "
@@ -110,7 +138,7 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
         )
     content = USUAL | content
     aggregate = Solid(content["aggregate"]["E_GPa"] * 1e9, content["aggregate"]["poisson"])
-    binder = _binder(content, path)
+    binder = _binder(content, path, read_table)
     stiffest = getattr(binder.law, "glassy_modulus", 0.0)
     if stiffest >= aggregate.modulus:
         raise InputError(
@@ -124,7 +152,8 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
         file=str(path),
         binder=binder.law,
         shifted=binder.shifted,
-        caveat=_caveat(binder, temperature),
+        caveat=_caveat(binder),
+        measured=binder.measured,
         binder_share=content["binder_percent_by_mass"] / 100.0,
         voids=content["air_voids_percent"] / 100.0,
         aggregate_density=content["density_kg_m3"]["aggregate"],
@@ -143,20 +172,15 @@ def recipe_of(content: Any, path: str | Path = "recipe") -> Recipe:
     return recipe
 
 
-def _caveat(binder: Binder, temperature: np.ndarray) -> str:
+def _caveat(binder: Binder) -> str:
     """What a reader of the answer must know of the binder's law; empty if nothing."""
-    said = [binder.caution]
-    if not binder.temperature_stated:
-        said.append(f"The recipe states no temperature of its binder's law: {UNSTATED:g} °C stands for it.")
-    if binder.measured:
-        low, high = binder.measured
-        beyond = np.unique(temperature[(temperature < low) | (temperature > high)])
-        if beyond.size:
-            said.append(
-                f"The table of the binder goes from {low:g} to {high:g} °C: its law is extrapolated at "
-                f"{', '.join(f'{t:g}' for t in beyond)} °C."
-            )
-    return " ".join(filter(None, said))
+    unstated = f"The recipe states no temperature of its binder's law: {UNSTATED:g} °C stands for it."
+    return " ".join(filter(None, [binder.caution, "" if binder.temperature_stated else unstated]))
+
+
+def _beyond(measured: tuple[float, float] | None, temperature: np.ndarray) -> np.ndarray:
+    low, high = measured or (-np.inf, np.inf)
+    return (temperature < low - WOBBLE) | (temperature > high + WOBBLE)
 
 
 def _keyed(grading: Any, path: str | Path) -> Any:
@@ -170,6 +194,13 @@ def _keyed(grading: Any, path: str | Path) -> Any:
 
 
 def _number(sieve: str) -> float | str:
+    """Its opening [mm]: a number, that of a sieve of ASTM E11, or the text where it is neither."""
+    name = " ".join(sieve.casefold().replace("-", " ").split())
+    if (numbered := re.fullmatch(r"(?:#|no\.?)\s*(\d+)", name)) and numbered[1] in NUMBERED:
+        return NUMBERED[numbered[1]]
+    inches = re.sub(r"\s*(?:\"|”|″|in\.?|inch)$", "", name)
+    if inches in INCHES and (inches != name or "/" in name):
+        return INCHES[inches]
     try:
         return float(sieve)
     except ValueError:
@@ -189,7 +220,9 @@ def _require_finite(content: Any, path: str | Path, *keys: str) -> None:
 def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
     sizes = [_number(sieve) for sieve in content]
     if not all(isinstance(size, float) and np.isfinite(size) for size in sizes):
-        raise InputError(f"{path}: grading: a sieve is no number; give it in mm, as 0.063.")
+        raise InputError(
+            f"{path}: grading: a sieve is no number; give it in mm, as 0.063, or as 3/4 or No. 4."
+        )
     # A mapping of YAML has the order in which it was typed.
     sieve, passing = np.array(sorted(zip(sizes, content.values(), strict=True)), float).T * [[1e-3], [1e-2]]
     if sieve[0] < 1e-6 or not COARSE <= sieve[-1] <= 0.1:
@@ -216,13 +249,13 @@ def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
     return Grading(sieve, passing)
 
 
-def _binder(content: Mapping[str, Any], path: str | Path) -> Binder:
+def _binder(content: Mapping[str, Any], path: str | Path, read_table: TableReader) -> Binder:
     """The binder of the mix, that of recycled asphalt in it."""
-    binder = read_binder(content["binder"], path)
+    binder = read_binder(content["binder"], path, read_table)
     rap = content.get("rap")
     if rap is None:
         return binder
-    old = read_binder(rap["binder"], path)
+    old = read_binder(rap["binder"], path, read_table)
     share = rap["percent_by_mass"] * rap["binder_percent_by_mass"] / 100.0 / content["binder_percent_by_mass"]
     if share > 1.0:
         raise InputError(
@@ -232,8 +265,9 @@ def _binder(content: Mapping[str, Any], path: str | Path) -> Binder:
     if binder.shifted != old.shifted:
         raise InputError(f"{path}: rap.binder: one binder holds at one temperature alone; give both a shift.")
     caution = " ".join(filter(None, [binder.caution, old.caution]))
-    law = Blend(binder.law, old.law, share)
-    return replace(binder, law=law, caution=caution)
+    tables = [one.measured for one in (binder, old) if one.measured]
+    measured = (max(low for low, _ in tables), min(high for _, high in tables)) if tables else None
+    return replace(binder, law=Blend(binder.law, old.law, share), caution=caution, measured=measured)
 
 
 def _points(content: Mapping[str, Any], binder: Binder, path: str | Path) -> tuple[np.ndarray, np.ndarray]:
@@ -246,9 +280,9 @@ def _points(content: Mapping[str, Any], binder: Binder, path: str | Path) -> tup
         frequency = np.asarray(content.get("frequencies_Hz", DEFAULT_FREQUENCIES), float)
     reference = binder.law.shift.reference_temperature
     if binder.shifted:
-        low, high = binder.measured or (-np.inf, np.inf)
-        usual = [t for t in DEFAULT_TEMPERATURES if low <= t <= high] or [reference]
-        temperature = np.asarray(content.get("temperatures_C", usual), float)
+        usual = np.array(DEFAULT_TEMPERATURES)
+        usual = usual[~_beyond(binder.measured, usual)]
+        temperature = np.asarray(content.get("temperatures_C", usual if usual.size else [reference]), float)
     else:
         temperature = np.array([reference])
         for asked in content.get("temperatures_C", ()):

@@ -17,7 +17,7 @@ from asphalt_nscd.rheology.hirsch import contact_share, hirsch_modulus
 
 def hirsch(recipe: Recipe) -> np.ndarray:
     """E* (n,) [Pa] of the regression of Christensen, Pellinen & Bonaquist (2003), with their equation of the phase."""
-    shear, (vma, vfa) = np.abs(recipe.binder_modulus()) / 3.0, _volumetrics(recipe)
+    shear, (vma, vfa) = np.abs(recipe.binder_modulus()) / 3.0, volumetrics(recipe)
     contact = contact_share(shear, vma, vfa)
     phase = -21.0 * np.log10(contact) ** 2 - 55.0 * np.log10(contact)
     return hirsch_modulus(shear, vma, vfa) * np.exp(1j * np.radians(phase))
@@ -31,7 +31,7 @@ def witczak(recipe: Recipe) -> np.ndarray:
     p200 = 100.0 * float(passing(0.075e-3))
     r4, r38, r34 = (100.0 * (1.0 - float(passing(size))) for size in (4.75e-3, 9.5e-3, 19e-3))
     air = 100.0 * recipe.voids
-    vma, vfa = _volumetrics(recipe)
+    vma, vfa = volumetrics(recipe)
     binder_share = vfa / 100.0  # Vbeff / (Va + Vbeff)
     first = (
         6.65 - 0.032 * p200 + 0.0027 * p200**2 + 0.011 * r4 - 0.0001 * r4**2
@@ -54,7 +54,7 @@ RIVALS: dict[str, Callable[[Recipe], np.ndarray]] = {
 }
 
 
-def _volumetrics(recipe: Recipe) -> tuple[float, float]:
+def volumetrics(recipe: Recipe) -> tuple[float, float]:
     """Voids in the mineral aggregate, and their share filled with binder [%]."""
     binder = (1.0 - recipe.aggregate_fraction) * (1.0 - recipe.voids)
     vma = binder + recipe.voids

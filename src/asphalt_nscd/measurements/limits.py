@@ -10,7 +10,9 @@ from asphalt_nscd.files.csvinput import Limits
 # A phase may come out a little negative (a delayed channel does that), so its sign is judged over
 # the whole table, by `measurements`.
 LIMITS = {
-    "temperature_C": Limits(-80, 120, "give degrees Celsius"),
+    "temperature_C": Limits(
+        -80, 120, "give degrees Celsius, or write the unit into the name of the column, as in T (°F) or T (K)"
+    ),
     "frequency_Hz": Limits(1e-5, 1000, "give a positive frequency in Hz"),
     "F0_N": Limits(1e-6, 1e5, "give a positive force amplitude in N"),
     "z0_m": Limits(1e-8, 5e-3, "give a positive displacement amplitude in m (63 micrometres are 63e-6)"),

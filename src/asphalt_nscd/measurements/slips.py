@@ -46,7 +46,7 @@ COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
 
 def slips(table: pd.DataFrame) -> Iterator[str]:
     """A sentence with the mend for each slip of a unit or a label; most tables have none."""
-    yield from _units_of_labels(table)
+    yield from units_of_labels(table)
     yield from _order_of_frequencies(table)
     yield from _radians(table)
     yield from _complements(table)
@@ -59,7 +59,8 @@ def slips(table: pd.DataFrame) -> Iterator[str]:
         yield from _unit_of_all_moduli(table)
 
 
-def _units_of_labels(table: pd.DataFrame) -> Iterator[str]:
+def units_of_labels(table: pd.DataFrame) -> Iterator[str]:
+    """Temperatures in degF and frequencies in rad/s below names that say degC and Hz."""
     temperature = np.sort(table["temperature_C"].unique())
     celsius = celsius_of_fahrenheit(temperature)
     # Of 39.2, 50 and 68 degF the last two are whole as they stand: two at least must not be.
@@ -69,9 +70,12 @@ def _units_of_labels(table: pd.DataFrame) -> Iterator[str]:
             "Fahrenheit; write the unit F into the name of the column."
         )
     frequency = np.sort(table["frequency_Hz"].unique())
-    if frequency.size > LEAST and _short(frequency / FULL_CIRCLE).all() and not _short(frequency).any():
+    turns, ends = frequency / FULL_CIRCLE, frequency[[0, -1]]
+    whole = _short(turns).all() and not _short(frequency).any()
+    # A sweep from 0.628 to 62.8 may have other steps between.
+    if frequency.size > LEAST and (whole or (_short(turns[[0, -1]], 1).all() and not _short(ends).any())):
         yield (
-            f"the frequencies {_listed(frequency)} are 2 pi times {_listed(frequency / FULL_CIRCLE)}: they look like "
+            f"the frequencies {_listed(frequency)} are 2 pi times {_listed(turns)}: they look like "
             "rad/s; divide them by 2 pi, or name their column (in an export, their line) 'omega (rad/s)'."
         )
 
@@ -319,9 +323,9 @@ def _whole(values: NDArray[np.float64]) -> NDArray[np.bool_]:
     return np.abs(values - np.round(values)) < 0.03
 
 
-def _short(values: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Whether values are numbers of two digits, to a thousandth."""
-    rounded = np.array([float(f"{value:.2g}") for value in values])
+def _short(values: NDArray[np.float64], digits: int = 2) -> NDArray[np.bool_]:
+    """Whether values are numbers of so many digits, to a thousandth."""
+    rounded = np.array([float(f"{value:.{digits}g}") for value in values])
     return np.abs(values / rounded - 1.0) < 1e-3
 
 

@@ -122,8 +122,8 @@ def fill_blocks(documents: Sequence[Path], blocks: Mapping[str, Path]) -> None:
     """Replace what stands between `<!-- name -->` and `<!-- end name -->` by a table.
 
     `blocks` names the source of each block: a Markdown source is taken as it is; of a CSV file the table is made
-    (reporting/layouts.py). `documents` are Markdown files or folders of them. Each block must stand once in all of them
-    together; else nothing is changed.
+    (reporting/layouts.yaml). `documents` are Markdown files or folders of them. Each block must stand once in all of
+    them together; else nothing is changed.
     """
     pages = [page for path in documents for page in (sorted(path.glob("*.md")) if path.is_dir() else [path])]
     before = {page: page.read_text(encoding="utf-8") for page in pages}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import difflib
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -14,22 +13,16 @@ from typing import Any
 
 import yaml
 from jsonschema import Draft202012Validator
-from jsonschema.exceptions import ValidationError, best_match
+from jsonschema.exceptions import ValidationError
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import is_file, require_readable
+from asphalt_nscd.files.schema_words import dotted, first_wrong, sentence_on
 from asphalt_nscd.measurements.kinds import BENDING, PAPER_AMPLITUDE, usual_steps_per_cycle
 from asphalt_nscd.study.schema import read_schema
 
 # YAML 1.1 reads 5e-5 as text, and --config what stands in a list; where the schema wants a number it is one.
 _NUMBER = re.compile(r"[-+]?\d+(\.\d*)?([eE][-+]?\d+)?")
-_TYPES = {
-    "object": "a mapping",
-    "array": "a list",
-    "string": "text",
-    "number": "a number",
-    "integer": "a whole number",
-}
 # Folders of results/ that belong to no study.
 RESERVED = (
     "benchmark",
@@ -64,9 +57,7 @@ def complete_study(config: Mapping[str, Any], source: str) -> dict[str, Any]:
         for part in (_nearest_alternative(error) if isinstance(error.instance, dict) else ()) or (error,)
     ]
     if errors:
-        # First, for most often it is a key misspelt, which is then missing as well.
-        unknown = [error for error in errors if error.validator == "additionalProperties"]
-        raise InputError(f"{source}: {_sentence((unknown or [best_match(errors)])[0])}")
+        raise InputError(f"{source}: {sentence_on(first_wrong(errors), 'the study')}")
     if study["study"] in RESERVED:
         raise InputError(
             f"{source}: study {study['study']!r} is a folder of other results; give it another name."
@@ -156,50 +147,6 @@ def _nearest_alternative(error: ValidationError) -> list[ValidationError]:
     return [part for part, place in zip(parts, places, strict=True) if place == nearest]
 
 
-def _sentence(error: ValidationError) -> str:
-    where, schema = _path(error.absolute_path), error.schema
-    if error.validator == "additionalProperties":
-        key = next(key for key in error.instance if key not in schema["properties"])
-        close = difflib.get_close_matches(str(key), schema["properties"], n=1)
-        mend = f"did you mean {close[0]!r}?" if close else f"allowed are {', '.join(schema['properties'])}."
-        return f"unknown key {key!r} in {where}; {mend}"
-    if error.validator == "required":
-        key = next(key for key in schema["required"] if key not in error.instance)
-        return f"key {key!r} is missing from {where}; add it."
-    if error.validator in ("minProperties", "maxProperties"):
-        return f"{where} needs exactly one of {', '.join(schema['properties'])}."
-    wanted = _wanted(error)
-    if error.validator == "anyOf":
-        wanted = " or ".join(
-            dict.fromkeys(_TYPES[item.get("type", "object")] for item in error.validator_value)
-        )
-    meaning = f" ({schema['description'].rstrip('.')})" if "description" in schema else ""
-    return f"{where} is {error.instance!r}, but must be {wanted}{meaning}."
-
-
-def _wanted(error: ValidationError) -> str:
-    value = error.validator_value
-    return {
-        "type": lambda: _TYPES.get(value, value),
-        "enum": lambda: "one of " + ", ".join(map(str, value)),
-        "minimum": lambda: f"at least {value}",
-        "exclusiveMinimum": lambda: f"greater than {value}",
-        "maximum": lambda: f"at most {value}",
-        "exclusiveMaximum": lambda: f"less than {value}",
-        "minItems": lambda: f"a list of at least {value}",
-        "maxItems": lambda: f"a list of at most {value}",
-        "uniqueItems": lambda: "a list without repetitions",
-        "pattern": lambda: "letters, digits, - and _, the first a letter",
-    }.get(error.validator, lambda: f"{error.validator} {value}")()
-
-
-def _path(keys: Any) -> str:
-    path = ""
-    for key in keys:
-        path += f"[{key}]" if isinstance(key, int) else f".{key}" if path else str(key)
-    return path or "the study"
-
-
 def _fill(value: Any, schema: Mapping[str, Any], root: Mapping[str, Any]) -> None:
     """Put the schema's defaults where `value` has nothing."""
     if "$ref" in schema:
@@ -242,7 +189,7 @@ def _check(study: dict[str, Any], source: str) -> None:
     for path, value in _leaves(study):
         # YAML writes .nan and .inf, and a schema takes both for numbers.
         if isinstance(value, float) and not math.isfinite(value):
-            raise InputError(f"{source}: {_path(path)} is {value}, but must be a finite number.")
+            raise InputError(f"{source}: {dotted(path)} is {value}, but must be a finite number.")
     _check_geometry(study, source)
     published = study["laws"].get("published")
     users = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -19,11 +20,17 @@ from asphalt_nscd.measurements.kinds import UNKNOWN
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
 from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, read_sheets
 from asphalt_nscd.table_import.computed import computed_specimens
-from asphalt_nscd.table_import.contested import refuse_mislabelled
 from asphalt_nscd.table_import.layouts import Layout, layout_of
 from asphalt_nscd.table_import.quantities import QUALITY
-from asphalt_nscd.table_import.schemes import schemes_in
-from asphalt_nscd.table_import.several_files import Part, drop_copies, drop_repeated, rows_of, unify_spelling
+from asphalt_nscd.table_import.several_files import (
+    Part,
+    drop_copies,
+    drop_repeated,
+    refuse_mislabelled,
+    rows_of,
+    unify_spelling,
+)
+from asphalt_nscd.table_import.shear import is_shear
 from asphalt_nscd.table_import.skipped_files import SkippedFile, common_mend, listed, refused
 from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import (
@@ -33,11 +40,13 @@ from asphalt_nscd.table_import.understand import (
     names_force_or_modulus,
     understand,
 )
+from asphalt_nscd.table_import.words import WORDS
 
 TEXT_FILES = (".txt", ".dat")  # which may hold running text
 SAVE_AS = "save it as CSV or XLSX."
 TABLES = (".csv", ".tsv", *TEXT_FILES, ".xlsx", ".xlsm", ".xlsb", ".xls", ".ods")
 MOST_FILES = 500
+MOST_LINES = 15  # from the top of a file, in which a title stands
 _MEASURED = ("temperature_C", "nominal_temperature_C", "E_MPa", "phase_deg")
 
 
@@ -108,7 +117,7 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
     if form in ("peaks", "records"):
         notes.append("forces and displacements are taken as of two-point bending")
         return "bending"
-    found = {kind for part in parts for kind in schemes_in(part.path)}
+    found = {kind for part in parts for kind in _schemes_in(part.path)}
     if len(found) == 1:
         kind = found.pop()
         way = choice("say --measured-in", IN_THE_MENU)
@@ -118,6 +127,17 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
     notes.append(f"which test gave the moduli is not said; {way}")
     # No guess: taken for bending, an AMPT's cylinder was told of guide friction and of a loose clamp.
     return UNKNOWN
+
+
+def _schemes_in(path: Path) -> set[str]:
+    """Kinds of test, of `kinds.TEST_TYPES`, that the first lines of a file name."""
+    try:
+        sheets = read_sheets(path)
+    # Why it cannot be read is said where it is read.
+    except InputError:
+        return set()
+    text = " ".join(cell for sheet in sheets for _, cells in sheet.rows[:MOST_LINES] for cell in cells)
+    return {kind for kind, pattern in WORDS["scheme"].items() if re.search(pattern, text, re.IGNORECASE)}
 
 
 def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> None:
@@ -202,6 +222,12 @@ def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:
 
 def _parts(path: Path, layout: Layout, sheets: Sequence[Sheet], wanted: _Wanted) -> list[Part]:
     blocks = layout.read(sheets, wanted.columns)
+    shear = next((name for block in blocks for name in block.cells.header if is_shear(name)), "")
+    if shear and not wanted.columns:
+        raise InputError(
+            f"{path}: column {shear!r} is of a shear modulus, as binders have; give |E*| of the mix here. A recipe of "
+            "`asphalt-nscd forecast` takes this file, as binder: {table: FILE}."
+        )
     return [Part(path, understand(block.cells, wanted.columns, wanted.mix), block) for block in blocks]
 
 

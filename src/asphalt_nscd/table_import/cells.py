@@ -71,6 +71,25 @@ class Cells:
     at: list[dict[str, str]] | None = None
 
 
+@dataclass(frozen=True)
+class Block:
+    """The tests of one table, as cells with one row for each test.
+
+    Of a machine's export (`exported`), where a block is of one specimen at one temperature: `repeated`, the operator
+    marked it as a repetition; `tested`, its date as the header has it; `contested`, the temperature [degC] that name or
+    header say beside the one taken; `unnamed`, no header names the specimen, and the file's name says no temperature:
+    it may be that of a test. `means`: all results are means of others.
+    """
+
+    cells: Cells
+    exported: bool = False
+    repeated: bool = False
+    tested: str = ""
+    contested: str = ""
+    unnamed: bool = False
+    means: bool = False
+
+
 def read_cells(path: str | Path, sheet: str | None = None) -> Cells:
     """Cells of a file with one table, below its line of names; several sheets with content need `sheet`."""
     sheets = read_sheets(path, sheet)
@@ -230,7 +249,7 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
     data = path.read_bytes()
     # Excel's "Unicode text" is UTF-16. Its UTF-8 begins with a mark too, which `utf-8-sig` drops.
     codec = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
-    not_text = InputError(f"{path}: not text; give CSV, TSV or XLSX.")
+    not_text = InputError(f"{path}: not text; give CSV, TSV or a workbook (XLSX, XLS, XLSB, ODS).")
     # A null stands in nearly every binary file, and in text only as UTF-16.
     if data.startswith(b"%PDF-") or (codec != "utf-16" and b"\0" in data):
         raise not_text
@@ -298,7 +317,7 @@ def _xlsx(path: Path, wanted: str | None) -> _Sheets:
         # A sheet that is only a chart has no rows. Of a sheet that is not wanted only the name is.
         sheets = {one.title: one if wanted in (None, one.title) else None for one in book.worksheets}
         found = {
-            name: ([], []) if one is None else (_rows(one), _hidden_lines(one))
+            name: ([], []) if one is None else (_rows(one), _hidden_lines(path, one))
             for name, one in sheets.items()
         }
         hidden = {one.title for one in book.worksheets if one.sheet_state != "visible"}
@@ -312,11 +331,14 @@ def _rows(sheet: Any) -> list[Row]:
     return [(line, [_cell(value) for value in cells]) for line, cells in enumerate(rows, start=1)]
 
 
-def _hidden_lines(sheet: Any) -> list[str]:
-    """A note on the rows and columns of a sheet that are hidden, as by a filter."""
+def _hidden_lines(path: Path, sheet: Any) -> list[str]:
+    """A note on the rows and columns of a sheet that are hidden, as by a filter; refuses rows that are not read."""
     # openpyxl knows them only of a sheet that it holds whole.
     with sheet._get_source() as file:
         xml = file.read()
+    for row in re.finditer(rb'<row\b[^>]*?\br="(\d+)"[^>]*?(?<!/)>(.*?)</row>', xml, re.DOTALL):
+        if int(row[1]) > MOST_ROWS and row[2].count(b"</c>") > 1:
+            raise InputError(f"{path}: values in row {int(row[1])}; {TOO_MANY}")
     rows = [int(line) for line in re.findall(rb'<row\b(?=[^>]*\bhidden="(?:1|true)")[^>]*\br="(\d+)"', xml)]
     columns = re.findall(rb'<col\b(?=[^>]*\bhidden="(?:1|true)")[^>]*\bmin="(\d+)"', xml)
     named = [f"rows {_listed(rows)}"] * bool(rows) + [f"columns {_listed(map(int, columns))}"] * bool(columns)

@@ -18,6 +18,7 @@ from asphalt_nscd.table_import.heading import (
     SPECIMEN,
     condition,
     known,
+    quantity_of,
     read_heading,
     strip_conditions,
 )
@@ -64,6 +65,8 @@ def tabulated(path: Path, rows: list[Row], notes: list[str]) -> Cells:
     else:
         kept = passed
     cells = build_cells(path, [*kept, (names_line, stack.names), *body], notes)
+    # Before constants stand in the line of units too.
+    cells = _attach_unit_line(cells) if cells.rows else cells
     at = stack.at + [{}] * (len(cells.header) - len(stack.at))
     return add_constants(replace(cells, at=at if any(at) else None), told, "the lines above the names")
 
@@ -73,9 +76,7 @@ def add_constants(cells: Cells, told: dict[str, str], whence: str) -> Cells:
     from asphalt_nscd.table_import.melt import held
 
     has = held(cells)
-    new = {
-        name: text for name, text in told.items() if (column := known(name)) and column.quantity not in has
-    }
+    new = {name: text for name, text in told.items() if quantity_of(name) not in ("", *has)}
     if not new:
         return cells
     said = " and ".join("temperature" if name.startswith("T ") else name for name in new)
@@ -118,7 +119,7 @@ def sections(rows: list[Row]) -> list[list[Row]]:
     """Rows of a sheet, parted where names of columns come again below lines that say of what."""
     starts = [0]
     named = [n for n, (_, cells) in enumerate(rows) if _names(cells)]
-    for n in named[1:]:
+    for n in (n for n in named[1:] if n - 1 not in named):  # names may go over two lines
         above = n
         for start in range(max(n - MOST_LINES, starts[-1] + 1), n):
             if told_above([rows[start]])[1] and not any(map(NUMBER.fullmatch, rows[start + 1][1])):
@@ -133,9 +134,7 @@ def sections(rows: list[Row]) -> list[list[Row]]:
 
 def require_rows(path: Path, rows: list[Row]) -> None:
     """Refuse a table with a column for each test, except a machine's export, which has one temperature in all."""
-    cells_of = {
-        column.quantity: cells[1:] for _, cells in rows if (column := known(strip_conditions(cells[0])))
-    }
+    cells_of = {read_heading(cells[0]).quantity: cells[1:] for _, cells in rows}
     sizes = {len(cells_of.get(name, [])) for name in ("temperature_C", "frequency_Hz", "E_MPa")}
     if len(sizes) > 1 or max(sizes) < 2:
         return
@@ -148,12 +147,8 @@ def require_rows(path: Path, rows: list[Row]) -> None:
 
 def _names(cells: list[str]) -> bool:
     """Whether a line names two measured quantities, and holds no number."""
-    found = {
-        column.quantity
-        for cell in cells
-        if (column := read_heading(cell).column) and MEASURED[column.quantity][1]
-    }
-    return len(found) > 1 and not any(NUMBER.fullmatch(cell) for cell in cells)
+    measured = {read_heading(cell).quantity for cell in cells} - {"", *LABELS}
+    return len(measured) > 1 and not any(map(NUMBER.fullmatch, cells))
 
 
 def _with_keys_below(names: list[str], cells: list[str]) -> list[str]:
@@ -162,10 +157,10 @@ def _with_keys_below(names: list[str], cells: list[str]) -> list[str]:
         return names
     first = next(n for n, name in enumerate(names) if name and read_heading(name).is_result)
     deeper = [
-        not name and (column := known(cell)) is not None and column.quantity in (*KEYS, *LABELS)
+        name or (cell if quantity_of(cell) in (*KEYS, *LABELS) else "")
         for name, cell in zip(names[:first], cells, strict=False)
     ]
-    return [cells[n] if n < len(deeper) and deeper[n] else name for n, name in enumerate(names)]
+    return deeper + names[len(deeper) :]
 
 
 def _results(cells: list[str]) -> list[str]:
@@ -221,12 +216,10 @@ def _alone(one: dict[str, str], said: list[dict[str, str]]) -> dict[str, str]:
 
 def _labels_below(cells: list[str], names: list[str]) -> bool:
     """Whether a line below names says for which condition or specimen each column is."""
-    held_by = [read_heading(name) for name in names]
-    keys = {
-        n for n, one in enumerate(held_by) if (column := one.column) and column.quantity in (*KEYS, SPECIMEN)
-    }
-    has_axis = any(held_by[n].column.quantity in KEYS for n in keys)  # type: ignore[union-attr]
-    first = next((n for n, one in enumerate(held_by) if one.is_result), 0)
+    quantities = [read_heading(name).quantity for name in names]
+    keys = {n for n, one in enumerate(quantities) if one in (*KEYS, SPECIMEN)}
+    has_axis = not set(KEYS).isdisjoint(quantities)
+    first = next((n for n, name in enumerate(names) if read_heading(name).is_result), 0)
     filled = [(n, cell) for n, cell in enumerate(cells) if cell]
     carried = _filled(names, len(cells))
     units = [_is_unit_of(cell, carried[n]) for n, cell in filled]
@@ -256,11 +249,7 @@ def _is_unit_of(cell: str, name: str) -> bool:
 
 def _labels_above(cells: list[str], names: list[str]) -> list[dict[str, str]] | None:
     """Conditions or specimens that merged cells hold above names; None if more than these stands there."""
-    results = [
-        column.quantity
-        for name in names
-        if (column := read_heading(name).column) and read_heading(name).is_result
-    ]
+    results = [one.quantity for one in map(read_heading, names) if one.is_result]
     several = len(results) > len(set(results))
     axis = ""
     out: list[dict[str, str]] = []

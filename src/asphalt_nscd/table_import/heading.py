@@ -17,7 +17,8 @@ from asphalt_nscd.table_import.words import SAY, SPREAD
 
 SPECIMEN, CELSIUS, FAHRENHEIT, HERTZ = "specimen", "T (°C)", "T (°F)", "f (Hz)"
 MEAN = "Mean"  # in place of a specimen
-KEYS = ("temperature_C", "nominal_temperature_C", "frequency_Hz", "nominal_frequency_Hz")
+TEMPERATURES = ("temperature_C", "nominal_temperature_C")
+KEYS = (*TEMPERATURES, "frequency_Hz", "nominal_frequency_Hz")
 LABELS = ("specimen", "replicate", "mix", "origin")
 _BEFORE = (
     r"(?:(?:\b(?:at|à|bei|for|für|temperature|température|temperatur|temp|frequency|fréquence|frequenz|freq|[Tfθ])\b\.?"
@@ -34,7 +35,7 @@ _SPECIMEN = re.compile(
     r"(?:[A-Za-z]{0,3}[-_]?\d+[A-Za-z]?|[A-Z]))(?!\w)",
     re.IGNORECASE,
 )
-_TRAILING = re.compile(r"(?P<name>.*\S)(?:[\s_.#-]*(?P<at>\d{1,3})|[\s_-]+(?P<letter>[A-Z]\d{0,3}))")
+_TRAILING = (re.compile(r"(.*\S)[\s_-]+([A-Z]\d{0,3})"), re.compile(r"(.*\S)[\s_.#-]*(\d{1,3})"))
 _UNIT_AT_END = re.compile(r"(?P<stem>.*?)\s*(?P<unit>[(\[{][^()\[\]{}]*[)\]}])\s*")
 
 
@@ -55,10 +56,14 @@ class Heading:
         return known(self.name)
 
     @property
+    def quantity(self) -> str:
+        """Our column for it; empty if none is known."""
+        return quantity_of(self.name)
+
+    @property
     def is_result(self) -> bool:
         """Whether it names what a test gives, and no temperature, frequency or label."""
-        column = self.column
-        return column is not None and column.quantity not in (*KEYS, *LABELS)
+        return self.quantity not in ("", *KEYS, *LABELS)
 
 
 # Each cell of a file is understood once, and asked for several times.
@@ -69,6 +74,12 @@ def known(name: str) -> Meaning | None:
         return recognise(name) if name else None
     except InputError:  # `understand` refuses it
         return None
+
+
+def quantity_of(name: str) -> str:
+    """Our column for a name; empty if it is none that is known."""
+    column = known(name)
+    return "" if column is None else column.quantity
 
 
 @lru_cache(maxsize=2**14)
@@ -91,10 +102,10 @@ def read_heading(text: str) -> Heading:
         if at and Heading(name).is_result:
             return Heading(name, at)
     # `|E*| 2` or `E* A`: a number or a single letter behind the name is a specimen.
-    if trailing := _TRAILING.fullmatch(_tidy(stem)):
-        heading = Heading(_tidy(trailing["name"]) + unit)
+    for trailing in filter(None, (pattern.fullmatch(_tidy(stem)) for pattern in _TRAILING)):
+        heading = Heading(_tidy(trailing[1]) + unit)
         if heading.is_result and SPECIMEN not in at:
-            return Heading(heading.name, at | {SPECIMEN: trailing["at"] or trailing["letter"]})
+            return Heading(heading.name, at | {SPECIMEN: trailing[2]})
     return Heading(text)
 
 

@@ -6,8 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from asphalt_nscd.table_import import machine_exports, matrices, rows_of_tests
-from asphalt_nscd.table_import.blocks import Block
-from asphalt_nscd.table_import.cells import Sheet
+from asphalt_nscd.table_import.cells import Block, Sheet
 
 
 class Layout(Protocol):

@@ -8,11 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.table_import.blocks import Block
-from asphalt_nscd.table_import.cells import Cells, Row, Sheet
+from asphalt_nscd.table_import.cells import Block, Cells, Row, Sheet
 from asphalt_nscd.table_import.decimals import decimal_mark, match_decimal_mark
 from asphalt_nscd.table_import.header_lines import require_rows
-from asphalt_nscd.table_import.heading import known
+from asphalt_nscd.table_import.heading import known, quantity_of
 from asphalt_nscd.table_import.names import celsius, file_label, specimen_of
 from asphalt_nscd.table_import.quantities import Meaning, unit_in
 from asphalt_nscd.table_import.targets import FAR, Header, decided, median_reading
@@ -33,6 +32,8 @@ class _Header:
 
     def take(self, cells: Sequence[str]) -> None:
         label, *rest = [cell for cell in cells if cell] or [""]
+        if _names_columns(cells):
+            return
         if not rest and ":" in label:
             label, _, value = label.partition(":")
             rest = [value.strip()]
@@ -58,8 +59,7 @@ def matches(sheets: Sequence[Sheet]) -> bool:
     for at, (_, cells) in enumerate(rows):
         if _frequencies(cells) or _lists(header, cells, rows[at:]):
             return True
-        if not _names_columns(cells):
-            header.take(cells)
+        header.take(cells)
     return bool(header.first(_IDENTIFICATION) and header.first(_TARGET))
 
 
@@ -72,8 +72,7 @@ def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
     several = sum(bool(_frequencies(cells)) or _names_columns(cells) for _, cells in rows) > 1
     while at < len(rows):
         line, cells = rows[at]
-        frequencies = _frequencies(cells)
-        if frequencies:
+        if frequencies := _frequencies(cells):
             taken = _results(path, rows[at + 1 :], len(frequencies))
             _require_whole(path, frequencies, taken, rows[at + 1 + len(taken) :])
             said = list(notes)
@@ -85,8 +84,7 @@ def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
             found.append(_result_block(path, header, table, notes, called, several))
             at += 1 + len(table.rows)
         else:
-            if not _names_columns(cells):
-                header.take(cells)
+            header.take(cells)
             at += 1
     if not found:
         for line, cells in rows:
@@ -116,7 +114,7 @@ def _lists(header: _Header, cells: list[str], rows: list[Row]) -> bool:
 def _frequencies(cells: list[str]) -> list[str]:
     """Frequencies of a line `, 25 Hz, 10 Hz, ...` or `Frequency (Hz), 25, 10, ...`, in Hz or rad/s; none if another."""
     label, values = cells[0], cells[1:]
-    named = _holds(label, "frequency_Hz")
+    named = quantity_of(label) == "frequency_Hz"
     if (label and not named) or not values or not all(values):
         return []
     numbers = [_HERTZ.fullmatch(value) for value in values]
@@ -136,20 +134,14 @@ def _frequency_name(path: Path, line: int, cells: list[str]) -> str:
     return "omega (rad/s)" if units == {"rad/s"} else "frequency (Hz)"
 
 
-def _holds(label: str, quantity: str) -> bool:
-    column = known(label)
-    return column is not None and column.quantity == quantity
-
-
-def _names_columns(cells: list[str]) -> bool:
-    held = {column.quantity for cell in cells if (column := known(cell))}
-    return {"frequency_Hz", "E_MPa"} <= held
+def _names_columns(cells: Sequence[str]) -> bool:
+    return {"frequency_Hz", "E_MPa"} <= set(map(quantity_of, cells))
 
 
 def _one_target(names: list[str], rows: list[Row]) -> bool:
     """Whether the rows below names of columns are at one temperature, as in an export; a table has several."""
-    place = next((n for n, name in enumerate(names) if _holds(name, "temperature_C")), None)
-    texts = [row[place] for _, row in rows[1:] if place is not None and place < len(row)]
+    places = [n for n, name in enumerate(names) if quantity_of(name) == "temperature_C"][:1]
+    texts = [row[n] for _, row in rows[1:] for n in places if n < len(row)]
     read = [float(text.replace(",", ".")) for text in texts if re.fullmatch(r"-?\d+(?:[.,]\d+)?", text)]
     return not read or max(read) - min(read) <= FAR
 
@@ -178,19 +170,18 @@ def _require_whole(path: Path, frequencies: list[str], taken: list[Row], rest: l
     # Something follows the results, so the file does not end within them.
     if len(rest) > 1 or (rest and len(rest[0][1]) > len(frequencies)):
         return
-    named = {column.quantity for _, cells in taken if (column := known(cells[0]))}
+    named = {quantity_of(cells[0]) for _, cells in taken}
     line, last = (taken + rest)[-1] if taken or rest else (0, [""])
-    quantity = column.quantity if (column := known(last[0])) else ""
     missing = frequencies[len(last) - 1 :]
     longer = any(len(cells) > len(last) for _, cells in taken)
-    if quantity in (*_NEEDED, "temperature_C") and missing and longer:
+    if quantity_of(last[0]) in (*_NEEDED, "temperature_C") and missing and longer:
         raise InputError(
             f"{path}, line {line}: the file ends early: {last[0]} has no value for the frequencies "
             f"{', '.join(missing)}; export it anew."
         )
     lacking = [word for name, word in _NEEDED.items() if name not in named]
-    unknown = any(known(cells[0]) is None for _, cells in taken)  # which may stand for it
-    if lacking and not unknown and "F0_N" not in named:
+    # A row that is not known may stand for it.
+    if lacking and named.isdisjoint(("", "F0_N")):
         raise InputError(
             f"{path}: the file ends early, without a row of {' and of '.join(lacking)}; export it anew."
         )
@@ -201,7 +192,7 @@ def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], note
     header = [_frequency_name(path, line, frequencies), *(cells[0] for _, cells in rows)]
     unit = "rad/s" if "rad/s" in header[0] else "Hz"
     # A turned row has no line of its own in the file: messages name that of the modulus.
-    modulus = next((n for n, cells in rows if _holds(cells[0], "E_MPa")), line)
+    modulus = next((n for n, cells in rows if quantity_of(cells[0]) == "E_MPa"), line)
     turned: dict[float, Row] = {}
     below = [(n, cell) for n, cells in rows if known(cells[0]) for cell in cells[1:]]
     headings = [match_decimal_mark(text, [cell for _, cell in below]) for text in _frequencies(frequencies)]
@@ -225,7 +216,7 @@ def _turned(path: Path, line: int, frequencies: list[str], rows: list[Row], note
 
 def _listed(path: Path, names: list[str], rows: list[Row]) -> Cells:
     """Results with a line for each frequency, down to the first line with neither frequency nor modulus."""
-    wanted = [n for n, name in enumerate(names) if _holds(name, "frequency_Hz") or _holds(name, "E_MPa")]
+    wanted = [n for n, name in enumerate(names) if quantity_of(name) in ("frequency_Hz", "E_MPa")]
     taken: list[Row] = []
     for line, cells in rows:
         filled = [*cells, *[""] * (len(names) - len(cells))]
@@ -292,11 +283,10 @@ def _result_block(
 def _target(path: Path, header: _Header, reading: Meaning | None) -> Header | None:
     """Target temperature as the header has it; without a unit it is in that of the measured one, or else in degC."""
     # The set value before a reading: an isotherm has one set value, and readings wander about it.
-    found = header.first(_TARGET) or header.first(_CONSTANT)
-    match = re.fullmatch(r"([-−]?\d+(?:[.,]\d+)?)\s*[°º]?\s*([CFK])?", found[1]) if found else None
-    if found is None or match is None:
+    label, value = header.first(_TARGET) or header.first(_CONSTANT) or ("", "")
+    match = re.fullmatch(r"([-−]?\d+(?:[.,]\d+)?)\s*[°º]?\s*([CFK])?", value)
+    if match is None:
         return None
-    label = found[0]
     said = header.units.get(label) or match[2] or (reading.unit if reading and reading.unit else "C")
     unit = unit_in(f"x ({said})")
     if unit not in ("C", "F", "K"):

@@ -16,7 +16,7 @@ from asphalt_nscd.table_import.heading import (
     SPECIMEN,
     Heading,
     is_spread,
-    known,
+    quantity_of,
     read_heading,
 )
 
@@ -46,11 +46,9 @@ def _replicates(headings: list[Heading]) -> list[Heading]:
 
 def held(cells: Cells) -> set[str]:
     """Quantities, by our names, that the columns and their headings give."""
-    found = set()
-    for heading in headings_of(cells):
-        told = [name for name, text in heading.at.items() if text != MEAN]
-        found |= {column.quantity for name in (heading.name, *told) if (column := known(name))}
-    return found
+    headings = headings_of(cells)
+    told = {name for one in headings for name, text in one.at.items() if text != MEAN}
+    return {quantity_of(name) for name in told.union(one.name for one in headings)} - {""}
 
 
 def holds_means(cells: Cells) -> bool:
@@ -63,35 +61,29 @@ def melted(cells: Cells) -> Cells:
     """One row for each test, where headings hold conditions; other tables as they are."""
     headings, notes = headings_of(cells), list(cells.notes)
     means = [n for n, one in enumerate(headings) if one.at.get(SPECIMEN) == MEAN]
-    others = [one for one in headings if one.is_result and one.at.get(SPECIMEN) != MEAN]
-    of_others = [n for n in means if headings[n].column in [one.column for one in others]]
-    if means and not of_others and all(len(headings[n].at) == 1 for n in means):
+    others = {one.quantity for one in headings if one.is_result and one.at.get(SPECIMEN) != MEAN}
+    of_others = [n for n in means if headings[n].quantity in others]
+    if not of_others and all(len(headings[n].at) == 1 for n in means):
         for n in means:  # means alone are the tests
             headings[n] = Heading(headings[n].name)
     spreads = [n for n, one in enumerate(headings) if one.left_out or is_spread(one.at.get(SPECIMEN, ""))]
-    left_out = sorted({*spreads, *of_others})
-    if left_out:
+    if left_out := sorted({*spreads, *of_others}):
         called = (f"{cells.header[n]} {headings[n].at.get(SPECIMEN, '')}".strip() for n in left_out[:6])
-        named = ", ".join(map(repr, called))
-        notes.append(f"left out, means and deviations of other columns: {named}")
+        notes.append(f"left out, means and deviations of other columns: {', '.join(map(repr, called))}")
     shared = [n for n, one in enumerate(headings) if n not in left_out and not one.at]
     spread = _grouped(cells, headings, left_out)
     if not spread:
         rows = [(line, [row[n] for n in shared]) for line, row in cells.rows]
         return Cells(cells.path, [headings[n].name for n in shared], rows, notes)
     _require_alike(cells, headings, shared, spread)
-    keys = list(next(iter(spread)))
+    conditions = [key for key, _ in next(iter(spread))]
     names = {quantity: headings[n].name for quantity, n in next(iter(spread.values())).items()}
-    conditions = [key for key, _ in keys]
     below = [row[n] for _, row in cells.rows for group in spread.values() for n in group.values()]
     rows = []
     for columns in spread.values():
-        said = [headings[next(iter(columns.values()))].at.get(key, "") for key in conditions]
+        at = headings[next(iter(columns.values()))].at
         # `0.5 Hz` in a heading may have a point above cells with decimal commas.
-        texts = [
-            text if key == SPECIMEN else match_decimal_mark(text, below)
-            for key, text in zip(conditions, said, strict=True)
-        ]
+        texts = [at[key] if key == SPECIMEN else match_decimal_mark(at[key], below) for key in conditions]
         for line, row in cells.rows:
             measured = [row[columns[name]] for name in names]
             if any(measured):  # what was not tested there is left empty
@@ -108,11 +100,9 @@ def _grouped(cells: Cells, headings: list[Heading], left_out: list[int]) -> _Gro
     """Columns by their conditions, and among these by their quantity."""
     spread: _Groups = {}
     for n, heading in enumerate(headings):
-        column = heading.column
-        if not heading.at or column is None or n in left_out:
+        if not heading.at or n in left_out:
             continue
-        group = spread.setdefault(_key(heading), {})
-        other = group.setdefault(column.quantity, n)
+        other = spread.setdefault(_key(heading), {}).setdefault(heading.quantity, n)
         if other != n:
             raise InputError(
                 f"{cells.path}: columns {cells.header[other]!r} and {cells.header[n]!r} hold one quantity at one "
@@ -122,25 +112,22 @@ def _grouped(cells: Cells, headings: list[Heading], left_out: list[int]) -> _Gro
 
 
 def _key(heading: Heading) -> tuple[tuple[str, object], ...]:
-    order = (CELSIUS, FAHRENHEIT, HERTZ, SPECIMEN)
     return tuple(
         (name, text if name == SPECIMEN else float(text.replace(",", ".")))  # 10 and 10.0 are one
-        for name in order
+        for name in _PLURALS
         if (text := heading.at.get(name))
     )
 
 
 def _require_alike(cells: Cells, headings: list[Heading], shared: list[int], spread: _Groups) -> None:
     """Refuse headings whose conditions are not the same for all quantities."""
-    first_key, first = next(iter(spread.items()))
-    conditions = [name for name, _ in first_key]
-    quantities = {column.quantity for name in conditions if (column := known(name))}
-    plain = {column.quantity for n in shared if (column := headings[n].column)}
-    results = any(headings[n].is_result and headings[n].column.quantity in _RESULTS for n in shared)  # type: ignore[union-attr]
-    same = all(
+    key, first = next(iter(spread.items()))
+    conditions = [name for name, _ in key]
+    twice = {*_RESULTS, *map(quantity_of, conditions)}  # if a column without conditions has it too
+    alike = all(
         set(group) == set(first) and [name for name, _ in key] == conditions for key, group in spread.items()
     )
-    if same and quantities.isdisjoint(plain) and not results:
+    if alike and twice.isdisjoint(headings[n].quantity for n in shared):
         return
     name = cells.header[next(iter(first.values()))]
     raise InputError(

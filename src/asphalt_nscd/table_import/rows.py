@@ -29,24 +29,31 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
     keys = [places[name] for name in ("temperature_C", "frequency_Hz")]
     results = [places[name] for name in measured]
     labels = [places[name] for name in ("specimen", "replicate") if name in places]
-    of_others = [any(OF_SPECIMENS.fullmatch(row[place]) for place in labels) for _, row in cells.rows]
-    means = not all(of_others)  # of a table of means alone, these are the tests
     kept: list[Row] = []
     left: dict[str, list[Row]] = {}
-    for (line, row), of_other in zip(cells.rows, of_others, strict=True):
+    for line, row in cells.rows:
         # Tables that were pasted below each other bring their names again.
         why = _NAMES if row == cells.header else _rejection(row, keys, results)
-        why = why or (_MEAN if means and of_other else None)
         (kept if why is None else left.setdefault(why, [])).append((line, row))
+    cells = _carried(replace(cells, rows=kept), places, CARRIED[:3])
+    tests: list[Row] = []
+    means: list[Row] = []
+    for line, row in cells.rows:
+        of_others = any(OF_SPECIMENS.fullmatch(row[place]) for place in labels)
+        (means if of_others else tests).append((line, row))
+    if means and tests:  # of a table of means alone, these are the tests
+        left.setdefault(_MEAN, []).extend(means)
+        cells = replace(cells, rows=tests)
+    specimens = {row[place] for _, row in tests for place in labels}
     for line, row in (*left.get(_REMARK, []), *left.get(_NOT_MEASURED, [])):
         # Of a second table, which would be taken for more of the first.
         # Behind the columns that lines above the names gave.
-        if any(told_above([(line, row[start:])])[0] for start in range(4)):
+        if any(set(told_above([(line, row[start:])])[0].values()) - specimens for start in range(4)):
             raise InputError(
                 f"{cells.path}, line {line}: {' '.join(_filled(row))[:60]!r} stands among the tests; write it into a "
                 "column of its own, or the names of the columns below it."
             )
-    if not kept:
+    if not cells.rows:
         # A program that writes formulas stores no values, and openpyxl gives empty cells.
         names = " and ".join(repr(cells.header[place]) for place in results)
         raise InputError(
@@ -54,7 +61,7 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
             "its values."
         )
     notes = [*cells.notes, *(f"left out, {why}: {_quoted(why, rows)}" for why, rows in left.items())]
-    return _carried(replace(cells, rows=kept, notes=notes), places)
+    return _carried(replace(cells, notes=notes), places, CARRIED[3:])
 
 
 def _rejection(row: list[str], keys: list[int], results: list[int]) -> str | None:
@@ -78,11 +85,11 @@ def _quoted(why: str, rows: list[Row]) -> str:
     return f"{said} ({' '.join(_filled(rows[0][1]))[:60]!r})" if why == _REMARK else said
 
 
-def _carried(cells: Cells, places: Mapping[str, int]) -> Cells:
-    """Each empty cell of a column in CARRIED with the value above it, where this is the only way to read it."""
+def _carried(cells: Cells, places: Mapping[str, int], names: Sequence[str]) -> Cells:
+    """Each empty cell of these columns with the value above it, where this is the only way to read it."""
     rows = [(line, list(row)) for line, row in cells.rows]
     notes = list(cells.notes)
-    for place in (places[name] for name in CARRIED if name in places):
+    for place in (places[name] for name in names if name in places):
         given = [row[place] for _, row in rows]
         if all(given) or not given[0]:
             continue
@@ -90,12 +97,13 @@ def _carried(cells: Cells, places: Mapping[str, int]) -> Cells:
         merged = not any(a and a == b for a, b in zip(given, given[1:], strict=False))
         for n, (line, row) in enumerate(rows):
             below = next((value for value in given[n:] if value), None)
-            if not merged and not row[place] and below != rows[n - 1][1][place]:
-                follows = f"between {rows[n - 1][1][place]} and {below}" if below else "at the end"
+            above = rows[n - 1][1][place]
+            if not merged and not row[place] and below != above and not OF_SPECIMENS.fullmatch(above):
+                follows = f"between {above} and {below}" if below else "at the end"
                 raise InputError(
                     f"{cells.path}, line {line}: {cells.header[place]} is empty {follows}; fill it in."
                 )
-            row[place] = row[place] or rows[n - 1][1][place]
+            row[place] = row[place] or above
         empty = counted(sum(not value for value in given), "empty cell")
         notes.append(f"{cells.header[place]!r}: {empty} with the value above, as in merged cells")
     return replace(cells, rows=rows, notes=notes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
@@ -14,14 +15,17 @@ import numpy as np
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted, specimen_named
-from asphalt_nscd.table_import.blocks import Block
+from asphalt_nscd.table_import.cells import Block
 from asphalt_nscd.table_import.dates import later
 from asphalt_nscd.table_import.names import file_label, one_of_another, specimen_of, spelling
+from asphalt_nscd.table_import.targets import FAR
 from asphalt_nscd.table_import.understand import ParsedTable
 
 _FIGURES = 4  # digits in which two files that hold the same tests agree
 _RETEST = log(1.5)  # of |E*|, median over frequencies; specimens of a mix differ by a tenth or so
 _LEAST = 2  # frequencies for that: of one, the retest may be the mend
+_MISLABELLED = log(1.3)  # of |E*|, by which specimens of a mix hardly differ
+_NEARER = 0.5  # of that, at the other temperature
 Test = tuple[str, ...]  # specimen, temperature, frequency and what else tells tests apart
 
 
@@ -78,26 +82,19 @@ def drop_copies(parts: list[Part], notes: list[str]) -> list[Part]:
         # Blocks of one file may hold equal numbers; only another file or sheet is a copy.
         holders = [one for one in kept if one.place != part.place and part.values & one.values]
         if holders and part.values <= set().union(*(one.values for one in holders)):
-            names = ", ".join(sorted({one.source for one in holders})[:3])
-            more = "" if len({one.source for one in holders}) <= 3 else " and others"
-            notes.append(
-                f"skipped {part.source} (holds the same tests as {names}{more})" + _saved_twice(part, holders)
-            )
+            sources, name = sorted({one.source for one in holders}), part.specimens[0]
+            others = {spelling(one.specimens[0]): one.specimens[0] for one in holders}
+            named = ", ".join(sources[:3]) + " and others" * (len(sources) > 3)
+            note = f"skipped {part.source} (holds the same tests as {named})"
+            if all(one.block.exported for one in (part, *holders)) and spelling(name) not in others:
+                note += (
+                    f": identical results under two specimens, {name} and {min(others.values())}: one export was "
+                    "saved twice; export the missing one"
+                )
+            notes.append(note)
         else:
             kept.append(part)
     return kept
-
-
-def _saved_twice(part: Part, holders: list[Part]) -> str:
-    """What to add of a copy if all are exports and name two specimens."""
-    name = part.specimens[0]
-    others = {one.specimens[0] for one in holders}
-    if not all(one.block.exported for one in (part, *holders)) or spelling(name) in map(spelling, others):
-        return ""
-    return (
-        f": identical results under two specimens, {name} and {min(others)}: one export was saved twice; export the "
-        "missing one"
-    )
 
 
 def unify_spelling(parts: list[Part], notes: list[str]) -> list[Part]:
@@ -173,14 +170,12 @@ def _require_specimens_of_names(parts: list[Part]) -> None:
 
 def _require_alike(parts: list[Part]) -> None:
     """Refuse two files that give one specimen at one temperature moduli too far apart for a retest."""
-    sweeps: dict[tuple[str, str], dict[int, dict[Test, float]]] = {}
+    sweeps: dict[Test, dict[int, dict[Test, float]]] = {}
     for place, part in enumerate(parts):
         # Forces and displacements have no modulus yet, and are not compared.
-        moduli = part.read.table.numbers_or_nan("E_MPa")
-        for (specimen, temperature, *test), modulus in zip(part.tests, moduli, strict=True):
+        for test, modulus in zip(part.tests, part.read.table.numbers_or_nan("E_MPa"), strict=True):
             if modulus > 0.0:
-                sweep = sweeps.setdefault((specimen, temperature), {}).setdefault(place, {})
-                sweep[tuple(test)] = float(modulus)
+                sweeps.setdefault(test[:2], {}).setdefault(place, {})[test[2:]] = float(modulus)
     for (specimen, temperature), held in sweeps.items():
         for one, other in combinations(held, 2):
             first, second = parts[one], parts[other]
@@ -231,19 +226,15 @@ def _is_later(first: Part, second: Part, test: Test) -> bool:
 
 def _repeated(worse: Part, better: Part, tests: list[Test]) -> str:
     specimen, temperature, *_ = tests[0]
-    share = "" if len(tests) == len(worse.tests) else f" for {len(tests)} of its {len(worse.tests)} tests"
+    share = f" for {len(tests)} of its {len(worse.tests)} tests" * (len(tests) < len(worse.tests))
     taken = f"{better.source} is taken instead of {worse.source}{share}: "
     if later(worse.block.tested, better.block.tested) is None:
         return f"{taken}the test was repeated"
-    marked = (
-        f", although {worse.source} is marked as repeated"
-        if worse.block.repeated > better.block.repeated
-        else ""
-    )
+    marked = worse.block.repeated > better.block.repeated
     return (
         f"{taken}{specimen} at {temperature} degC was tested again later, {better.block.tested} and not "
-        f"{worse.block.tested}{marked}; leave {better.source} out to "
-        "use the other"
+        f"{worse.block.tested}{f', although {worse.source} is marked as repeated' * marked}; leave {better.source} "
+        "out to use the other"
     )
 
 
@@ -255,3 +246,45 @@ def rows_of(table: Table, rows: list[int]) -> Table:
     }
     files = None if table.files is None else [table.files[row] for row in rows]
     return Table(table.path, columns, [table.lines[row] for row in rows], files)
+
+
+def refuse_mislabelled(parts: Sequence[Part]) -> None:
+    """Refuse an export whose moduli belong to the temperature that was not taken for it."""
+    for part in parts:
+        own = list(_tests(part))
+        if not part.block.contested or not own:
+            continue
+        others = [one for one in parts if set(one.specimens).isdisjoint(part.specimens)]
+        taken, contested = own[0][0], float(part.block.contested)
+        off, other = _apart(part, others, taken), _apart(part, others, contested)
+        if (
+            off is not None
+            and other is not None
+            and abs(off) > _MISLABELLED
+            and abs(other) < _NEARER * abs(off)
+        ):
+            raise InputError(
+                f"{part.path}: its name and its header say {contested:g} and {taken:g} degC, and the measured "
+                f"temperature speaks for {taken:g} degC; but |E*| is {exp(off):.2f} times that of the other specimens "
+                f"at {taken:g} degC and {exp(other):.2f} times at {contested:g} degC: correct header, readings or name."
+            )
+
+
+def _tests(part: Part) -> Iterator[tuple[float, float, float]]:
+    """Temperature [degC], frequency [Hz] and ln |E*| of each test."""
+    table = part.read.table
+    target = "nominal_temperature_C" if "nominal_temperature_C" in table.columns else "temperature_C"
+    columns = (table.numbers_or_nan(name) for name in (target, "frequency_Hz", "E_MPa"))
+    yield from ((t, f, log(modulus)) for t, f, modulus in zip(*columns, strict=True) if modulus > 0.0)
+
+
+def _apart(part: Part, others: Sequence[Part], at: float) -> float | None:
+    """Median ln |E*| of a part over that of the others at a temperature; None if they were not tested there."""
+    known: dict[float, list[float]] = {}
+    for one in others:
+        for t, f, modulus in _tests(one):
+            if abs(t - at) <= FAR:
+                known.setdefault(f, []).append(modulus)
+    apart = [modulus - median(known[f]) for _, f, modulus in _tests(part) if f in known]
+    # The median: one odd frequency decides nothing.
+    return median(apart) if apart else None

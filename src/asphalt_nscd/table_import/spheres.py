@@ -89,42 +89,31 @@ def _box(geometry: Shape, counts: pd.Series) -> tuple[float, float, float]:
 def read_grading(path: str | Path, sheet: str | None = None) -> pd.Series:
     """Read a sieve curve, per cent passing by sieve [mm], from any table that `read_cells` reads."""
     cells = read_cells(path, sheet)
-    places = {}
-    for place, name in enumerate(cells.header):
-        try:
-            column = recognise(name, SIEVES)
-        except InputError as error:
-            raise InputError(f"{path}: {error}") from None
-        if column is not None and column.quantity in places:
-            raise InputError(f"{path}: two columns may be {column.quantity}; remove one.")
-        if column is not None:
-            if column.unit is None:
-                raise InputError(
-                    f"{path}: column {name!r} does not say its unit; write sieve (mm), passing (%)."
-                )
-            places[column.quantity] = place, column
-    if set(places) != set(SIEVES):
+    try:
+        columns = [recognise(name, SIEVES) for name in cells.header]
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+    places = {one.quantity: place for place, one in enumerate(columns) if one}
+    if sum(map(bool, columns)) != len(SIEVES) or set(places) != set(SIEVES):
         raise InputError(
             f"{path}: give two columns, sieve (mm) and passing (%); found {', '.join(cells.header)}."
         )
-    mark = decimal_mark(
-        str(path), ((line, row[place]) for line, row in cells.rows for place, _ in places.values())
-    )
-    curve = {}
+    mark = decimal_mark(str(path), ((line, row[n]) for line, row in cells.rows for n in places.values()))
+    curve: dict[float, float] = {}
     for line, row in cells.rows:
-        values = {}
-        for (name, (place, column)), limits in zip(sorted(places.items()), (SIEVE, PERCENT), strict=True):
-            value = number(row[place], mark)
-            if value is None or not limits.low <= value * column.factor <= limits.high:
+        values = []
+        for place, limits in ((places["diameter_mm"], SIEVE), (places["passing_percent"], PERCENT)):
+            name, column, value = cells.header[place], columns[place], number(row[place], mark)
+            if column is None or column.unit is None:
                 raise InputError(
-                    f"{path}, line {line}: {cells.header[place]} is {row[place]!r}; {limits.mend}."
+                    f"{path}: column {name!r} does not say its unit; write sieve (mm), passing (%)."
                 )
-            values[name] = value * column.factor
-        if values["diameter_mm"] in curve:
-            raise InputError(
-                f"{path}, line {line}: sieve {values['diameter_mm']:g} mm appears twice; keep one."
-            )
-        curve[values["diameter_mm"]] = values["passing_percent"]
+            values.append(np.nan if value is None else value * column.factor)
+            if not limits.low <= values[-1] <= limits.high:
+                raise InputError(f"{path}, line {line}: {name} is {row[place]!r}; {limits.mend}.")
+        if values[0] in curve:
+            raise InputError(f"{path}, line {line}: sieve {values[0]:g} mm appears twice; keep one.")
+        curve[values[0]] = values[1]
     grading = pd.Series(curve)
     if grading.max() <= 1.0:
         raise InputError(

@@ -16,7 +16,7 @@ from asphalt_nscd.table_import.cells import Cells, NotTests
 from asphalt_nscd.table_import.columns import Place, chosen_columns, column_cue, name_with_unit, one_of
 from asphalt_nscd.table_import.decimals import decimal_mark, number
 from asphalt_nscd.table_import.header_lines import attach_units
-from asphalt_nscd.table_import.heading import known, read_heading, strip_conditions
+from asphalt_nscd.table_import.heading import known, strip_conditions
 from asphalt_nscd.table_import.melt import melted
 from asphalt_nscd.table_import.quantities import MEASURED, QUALITY, derived, recognise, units_in
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
@@ -180,7 +180,7 @@ def _columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Place]]:
 def names_force_or_modulus(cell: str) -> bool:
     """Whether a cell names a column of moduli or forces and says the unit, also in a wide table."""
     try:
-        column = recognise(read_heading(cell).name)
+        column = recognise(strip_conditions(cell))
     except InputError:  # a unit that the quantity does not have
         return True
     return column is not None and column.quantity in ("E_MPa", "F0_N") and column.unit is not None
@@ -192,16 +192,14 @@ def _of_one_mix(cells: Cells, kept: Mapping[str, Place], wanted: str | None) -> 
         return cells, ""
     place, _ = kept["mix"]
     mixes = list(dict.fromkeys(row[place] for _, row in cells.rows))
-    named = ", ".join(mixes[:5]) + (", ..." if len(mixes) > 5 else "")
-    if wanted in mixes:
-        notes = [*cells.notes, f"mix {wanted} alone, of {named}"] if len(mixes) > 1 else cells.notes
-        return replace(cells, rows=[one for one in cells.rows if one[1][place] == wanted], notes=notes), str(
-            wanted
-        )
-    if wanted is not None:
+    named = ", ".join(mixes[:5]) + ", ..." * (len(mixes) > 5)
+    if wanted is not None and wanted not in mixes:
         raise NotTests(
             f"{cells.path}: no mix {wanted!r} in column {cells.header[place]!r}; give one of {named}."
         )
+    if wanted is not None and len(mixes) > 1:
+        rows = [one for one in cells.rows if one[1][place] == wanted]
+        return replace(cells, rows=rows, notes=[*cells.notes, f"mix {wanted} alone, of {named}"]), wanted
     if len(mixes) > 1:
         way = choice(
             f'give one with --only-mix "{mixes[0]}"', "save the rows of each mix as a file of its own"
@@ -238,7 +236,10 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
         form: min((names for one, _, names in lacking if one == form), key=len)
         for form in ("moduli", "peaks")
     }
-    if missing["moduli"] == ["phase_deg"] and "psi_deg" not in columns and _all_known(cells, columns):
+    # Unless numbers are left under a name that is not known, which could be the phase.
+    left = set(range(len(cells.header))) - {place for places in columns.values() for place, _ in places}
+    unread = any(re.match(r"[-+]?[.,]?\d", row[place]) for _, row in cells.rows for place in left)
+    if missing["moduli"] == ["phase_deg"] and "psi_deg" not in columns and not unread:
         return "modulus", ("E_MPa",)
     for form, wanted, angle, of in _ANGLES:
         if missing[form] == [wanted] and angle in columns:
@@ -298,20 +299,11 @@ def _require_plain(cells: Cells, missing: Sequence[str]) -> None:
                 f"{cells.path}: column {name!r} is of a master curve; give temperature and frequency of each test."
             )
     for place, name in enumerate(cells.header):
-        held = {
-            column.quantity for _, row in cells.rows if (column := known(row[place])) and column.unit != ""
-        }
-        if len(held) > 1:
+        columns = [column for _, row in cells.rows if (column := known(row[place])) and column.unit != ""]
+        if len({column.quantity for column in columns}) > 1:
             raise InputError(
                 f"{cells.path}: column {name!r} says what stands in each line; give |E*| and phase a column each."
             )
-
-
-def _all_known(cells: Cells, columns: Mapping[str, list[Place]]) -> bool:
-    """Whether no column is left that could hold the phase: numbers under a name that is not known."""
-    read = {place for places in columns.values() for place, _ in places}
-    left = set(range(len(cells.header))) - read
-    return not any(re.match(r"[-+]?[.,]?\d", row[place]) for _, row in cells.rows for place in left)
 
 
 def _column(cells: Cells, name: str, place: Place, mark: str) -> Column:
@@ -346,7 +338,9 @@ def _number(cells: Cells, name: str, place: Place, mark: str, n: int) -> float:
         return value
     if name in MAY_BE_ABSENT and text.casefold() in ABSENT:
         return np.nan
-    problem = f"{text!r} is not a number" if text else "the cell is empty (a formula not computed?)"
+    problem = f"{text!r} is not a number" if text else "the cell is empty"
+    if not text and cells.path.suffix.startswith((".xls", ".ods")):
+        problem += " (a formula not computed?)"
     raise InputError(
         f"{cells.path}, line {line}: {cells.header[place[0]]}: {problem}; write a number or remove the line."
     )

@@ -19,6 +19,7 @@ from typing import Any
 from asphalt_nscd.files.store import atomic_path
 
 PACKAGE = Path(__file__).resolve().parents[1]
+TEMPLATES = "*.j2"
 STUDIES: list[Path] = []  # the folder of studies/, from where the workflow knows that it stands
 
 
@@ -26,7 +27,7 @@ def source_files(*modules: str, without: Sequence[str] = ()) -> list[Path]:
     """Files of `modules` (dotted, relative to the package, or in studies) and of all they import from both, sorted.
 
     Imports inside functions count. A package's `__init__.py` counts only where it is itself imported. Modules and
-    packages named in `without`, and what only they import, are left out.
+    packages named in `without`, and what only they import, are left out. Templates in the folder of a file count.
     """
     found: set[Path] = set()
     outside = [PACKAGE.joinpath(*name.split(".")) for name in without]
@@ -42,7 +43,9 @@ def source_files(*modules: str, without: Sequence[str] = ()) -> list[Path]:
         if path not in found and not any(place in (path.with_suffix(""), *path.parents) for place in outside):
             found.add(path)
             waiting.extend(_read(path, path.stat().st_mtime_ns).imported)
-    return sorted(found)
+    return sorted(
+        found | {text for folder in {path.parent for path in found} for text in folder.glob(TEMPLATES)}
+    )
 
 
 def stamp(folder: str | Path, name: str, files: Sequence[Path]) -> Path:
@@ -132,6 +135,8 @@ def _parse(path: Path, content: bytes) -> list[Any]:
     """Digest of the syntax tree without docstrings; names that may be modules, each with what else it may be."""
     package = ("asphalt_nscd", *Path(_place(path)).parent.parts)
     imports: set[tuple[str, str]] = set()
+    if not path.match("*.py"):
+        return [hashlib.sha256(content).hexdigest(), []]
     tree = ast.parse(content)
     for node in ast.walk(tree):
         if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):

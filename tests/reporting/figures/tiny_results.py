@@ -242,7 +242,7 @@ class Results:
             "odd_phases": [], "odd_temperatures": [], "suspect_tests": [], "detection_limits_of_one_place": {},
             "reported": {
                 "temperature_C": 15.0, "frequency_Hz": 10.0, "E_MPa": 9e3, "E_low_MPa": 8e3, "E_high_MPa": 1e4,
-                "phase_deg": 20.0, "phase_low_deg": 19.0, "phase_high_deg": 21.0,
+                "phase_deg": 20.0, "phase_low_deg": 19.0, "phase_high_deg": 21.0, "within_the_tests": True,
             },
             "reading": {
                 "test_type": "bending", "specimens": ["1", "2"], "isotherms_C": [0.0, 20.0], "quality_columns": [],

@@ -110,11 +110,6 @@ class FlexibleSpectrum:
         slope[:, m + 1 :] = along[:, None] * shift_slopes
         return static + terms.sum(axis=1), slope
 
-    def shift_strain(self, x: Vector) -> float:
-        """How far the shift is from the shifts that mixes have: squares of its prior."""
-        away = self.prior(x)[0][-3:]
-        return float(away @ away)
-
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
         """How far the law is from what mixes are: residuals (k,) in standard deviations, and derivative (k, p)."""
         m = self.times.size

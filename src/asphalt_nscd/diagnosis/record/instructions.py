@@ -28,9 +28,8 @@ from asphalt_nscd.diagnosis.record import rungs
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.words.order_words import Context, Open, Order, act, purpose, reasons
-from asphalt_nscd.diagnosis.words.sentences import article, typed
-from asphalt_nscd.diagnosis.words.unexplained import size_left
-from asphalt_nscd.diagnosis.written import round_to_interval, shown, three_digits, widening
+from asphalt_nscd.diagnosis.words.sentences import article, size_left, typed
+from asphalt_nscd.diagnosis.written import cause_at, round_to_interval, shown, three_digits, widening
 from asphalt_nscd.files.words import joined, specimen_named
 
 MOST = 5
@@ -129,7 +128,7 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
         for j, other in others:
             question = Question(k, _amplitude(named), (*active, j), TOLD_APART, everything)
             if question.strength(known) < TOLD_APART:
-                words, as_good = (words_of(named), words_of(other)), other.key in rivals[named.key]
+                words, as_good = (cause_at(*named.key), cause_at(*other.key)), other.key in rivals[named.key]
                 found.append(Open("apart", question, *words, named, other, alike=as_good))
     for n, departure in enumerate(model.departures):
         question = Question(len(model.candidates) + n, 1.0, active, TOLD_APART, everything)
@@ -178,7 +177,7 @@ def _strength_by_limit(diagnosis: Diagnosis, candidate: Candidate) -> float:
 def _named_questions(diagnosis: Diagnosis, model: Possible, k: int, active: tuple[int, ...]) -> list[Open]:
     """Does a named cause show without what it hangs on, and on metal?"""
     candidate = model.candidates[k]
-    words, amplitude = words_of(candidate), _amplitude(candidate)
+    words, amplitude = cause_at(*candidate.key), _amplitude(candidate)
     rows = model.linear.nuisance.shape[0]
     found = []
     hangs_on = diagnosis.ladder.hangs_on.get(candidate.key, [])
@@ -223,14 +222,6 @@ def _metal_effect(model: Possible, k: int, amplitude: float, share: float) -> st
 
 def _amplitude(candidate: Candidate) -> float:
     return candidate.values[0] / float(candidate.typical[0])
-
-
-def words_of(candidate: Candidate) -> str:
-    """A candidate in words: `loose clamp of 2`, `temperature bias at 30 degC`; no place for a cause of all tests."""
-    words, place = candidate.cause.name.replace("_", " "), candidate.place
-    if place is None:
-        return words
-    return f"{words} of {place}" if isinstance(place, str) else f"{words} at {place:g} degC"
 
 
 def _sized(candidate: Candidate, typical: float) -> tuple[str, str, str]:

@@ -18,7 +18,7 @@ from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, 
 from asphalt_nscd.diagnosis.observed.scatter import SCALE_FREEDOM
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.search.hypotheses import Hypothesis
-from asphalt_nscd.files.words import specimen_named
+from asphalt_nscd.diagnosis.written import cause_at
 
 CLOSE = 1e-3  # change of the objective at which the fit of a hypothesis ends
 HALVINGS = 60
@@ -118,7 +118,9 @@ def _of_kept(one: Hypothesis, kept: NDArray[np.bool_]) -> Hypothesis:
         return one
     every = one.joint
     joint = Joint(every.observed.subset(kept), every.base, every.noise.subset(kept))
-    active = tuple(cause for cause in one.causes if cause.cause.rows(joint.observed, cause.place).any())
+    active = tuple(
+        cause for cause in one.fitted.active if cause.cause.rows(joint.observed, cause.place).any()
+    )
     return replace(one, joint=joint, fitted=joint.fit(one.fitted.law, one.fitted.scales, active, CLOSE))
 
 
@@ -126,16 +128,9 @@ def averaged_over(mix: Mixture) -> str:
     """The hypotheses of a mixture with their probabilities, in a line: `phase offset 78 %, none of these 22 %`."""
     parts = []
     for one in mix.hypotheses:
-        causes = " and ".join(map(_words, mix.possible(one)))
+        causes = " and ".join(cause_at(*cause.key) for cause in mix.possible(one))
         parts.append(f"{causes or 'no possible cause'} {100.0 * one.probability:.0f} %")
     return ", ".join(parts) if len(parts) > 1 else "one hypothesis"
-
-
-def _words(candidate: Candidate) -> str:
-    words, place = candidate.cause.name.replace("_", " "), candidate.place
-    if place is None:
-        return words
-    return f"{words} of {specimen_named(place)}" if isinstance(place, str) else f"{words} at {place:g} degC"
 
 
 def standard_errors(slope: NDArray[np.float64], covariance: NDArray[np.float64]) -> NDArray[np.float64]:

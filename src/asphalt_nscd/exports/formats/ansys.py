@@ -9,50 +9,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from asphalt_nscd.exports.card import Card, Settings, number, write_card
+from asphalt_nscd.exports.card import Settings, make_card, write_card
 from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
 
 MOST_TERMS = 100
-ON_A_LINE = 3  # terms of a TBDATA
-MATERIAL = "ASPHALT_MAT"
-
-
 ENDINGS = (".inp", ".mac", ".dat", ".txt")
 
 
 def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
-    """Write the law as Ansys commands; a line on it."""
-    return write_card(law, settings, path, text, solid=True)
-
-
-def text(card: Card) -> str:
-    """The card as commented commands to be read within /PREP7; refuses more Prony terms than Ansys takes."""
-    series = card.series
-    terms = list(zip(series.weights, series.times, strict=True))
-    if len(terms) > MOST_TERMS:
+    """Write the law as Ansys commands to be read within /PREP7; a line on it. Refuses more terms than Ansys takes."""
+    terms = len(make_card(law, settings).solid().series.moduli)
+    if terms > MOST_TERMS:
         raise InputError(
-            f"{card.law.path}: {len(terms)} Prony terms, ANSYS takes {MOST_TERMS}; allow a larger --error-percent."
+            f"{law.path}: {terms} Prony terms, ANSYS takes {MOST_TERMS}; allow a larger --error-percent."
         )
-    lines = [
-        *card.comment("!"),
-        "! Read within /PREP7 by /INPUT. In a command snippet of Mechanical write matid for the number:",
-        # One place to change, where the model has a material 1 already.
-        f"{MATERIAL} = 1",
-        f"MP,EX,{MATERIAL},{number(card.settings.units.express(series.instantaneous))}",
-        f"MP,PRXY,{MATERIAL},{number(card.poisson)}",
-    ]
-    # Bulk too: left elastic, it would let Poisson's ratio change with time.
-    for part in ("SHEAR", "BULK"):
-        lines.append(f"TB,PRONY,{MATERIAL},1,{len(terms)},{part}")
-        for first in range(0, len(terms), ON_A_LINE):
-            values = [number(value) for term in terms[first : first + ON_A_LINE] for value in term]
-            lines.append(f"TBDATA,{2 * first + 1},{','.join(values)}")
-    wlf = card.law.wlf()
-    if wlf is not None:
-        constants = (wlf.reference_temperature, wlf.c1, wlf.c2)
-        lines += [
-            f"TB,SHIFT,{MATERIAL},1,3,WLF",
-            "TBDATA,1," + ",".join(number(value) for value in constants),
-        ]
-    return "\n".join(lines) + "\n"
+    return write_card(law, settings, path, "ansys.j2", solid=True)

@@ -6,15 +6,18 @@ from pathlib import Path
 
 import pandas as pd
 
-from asphalt_nscd.exports.card import Card, Settings, write_card
+from asphalt_nscd.exports.card import Card, Settings, comment, make_card
 from asphalt_nscd.exports.law import ExportedLaw
 
 ENDINGS = (".csv",)
 
 
 def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
-    """Write the law as a table of branches; a line on it."""
-    return write_card(law, settings, path, text)
+    """Write the law as a table of branches; a line on it. Lines that begin with # are comment."""
+    card = make_card(law, settings)
+    table = frame(card).to_csv(index=False, float_format="%.10g", lineterminator="\n")
+    path.write_text(f"{comment('#', card.statements())}\n{table}", encoding="utf-8")
+    return card.told()
 
 
 def frame(card: Card) -> pd.DataFrame:
@@ -35,9 +38,3 @@ def frame(card: Card) -> pd.DataFrame:
             "share_of_instantaneous": [modulus / series.instantaneous for modulus in moduli],
         }
     )
-
-
-def text(card: Card) -> str:
-    """The table as CSV; lines that begin with # are comment."""
-    table = frame(card).to_csv(index=False, float_format="%.10g", lineterminator="\n")
-    return "\n".join(card.comment("#")) + "\n" + table

@@ -6,16 +6,15 @@ seconds at 70 degF (NCHRP 1-37A, part 2, chapter 2). The table holds values of t
 
 from __future__ import annotations
 
-import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from asphalt_nscd import __version__
-from asphalt_nscd.exports.card import WIDTH, Settings
+from asphalt_nscd.exports.card import Settings, comment, statements
 from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.units import PSI, celsius_of_fahrenheit
@@ -133,59 +132,24 @@ def said(table: Table) -> str:
 
 def text(table: Table) -> str:
     """The table as CSV; lines that begin with # are comment."""
-    law = table.law
-    delta, alpha, beta, gamma = table.sigmoid
-    statements = [
-        f"Dynamic modulus of an asphalt mix, written by asphalt-nscd {__version__} from {law.path.name}.",
-        f"Law: {law.name}; source: {law.source}. Tested: {law.band}.",
-        "The table holds |E*| of the law in psi: enter it as dynamic modulus, input level 1.",
-        f"Sigmoid: log10 |E*| = delta + alpha / (1 + exp(beta + gamma log10 t_r)), |E*| in psi, "
-        f"t_r = 1 / (f a_T) in s at 70 degF: delta = {delta:.6g}, alpha = {alpha:.6g}, beta = {beta:.6g}, "
-        f"gamma = {gamma:.6g}; largest error {table.error_percent:.2g} % of |E*| against the table.",
-        "log10 a_T from 70 degF: "
-        + ", ".join(f"{t:g} degF {x:.5f}" for t, x in zip(TEMPERATURES_F, table.log_shift, strict=True))
-        + ("; nan: the shift of the law is not defined so cold." if np.isnan(table.log_shift).any() else "."),
-        f"{_extrapolated(table)} {law.loose()}",
-    ]
-    lines = [
-        # ASCII: AASHTOWare was not run, and a source may hold any letter.
-        f"# {line}".encode("ascii", "replace").decode()
-        for statement in statements
-        for line in textwrap.wrap(statement, WIDTH, subsequent_indent="  ")
-    ]
-    lines += _intervals(table)
-    lines.append("temperature_F," + ",".join(f"E_psi_at_{f:g}_Hz" for f in FREQUENCIES))
-    for temperature, row in zip(TEMPERATURES_F, table.modulus, strict=True):
-        lines.append(f"{temperature:g}," + ",".join("" if np.isnan(v) else f"{v:.0f}" for v in row))
-    return "\n".join(lines) + "\n"
-
-
-def _intervals(table: Table) -> list[str]:
-    """Lines of comment: the 95 % interval of each modulus, a row for each temperature as in the table."""
-    if table.spread is None:
-        return []
-    rows = ["# 95 % interval of |E*| of the law, psi, in the order of the table:"]
-    for temperature, row, spread in zip(TEMPERATURES_F, table.modulus, table.spread, strict=True):
-        cells = [
-            f"{e / by:.0f} to {e * by:.0f}" if np.isfinite(e) else ""
-            for e, by in zip(row, spread, strict=True)
-        ]
-        rows.append(f"# {temperature:g}, {', '.join(cells)}")
-    return rows
-
-
-def _extrapolated(table: Table) -> str:
-    """Which values lie beyond the tests."""
-    found = [
-        f"{temperature:g} degF {frequency:g} Hz ({cell})"
-        for temperature, row in zip(TEMPERATURES_F, table.outside, strict=True)
-        for frequency, cell in zip(FREQUENCIES, row, strict=True)
-        if cell
-    ]
-    if not found:
-        return "No value is extrapolated beyond the tested band."
-    return (
-        "Extrapolated beyond the tests (f: reduced frequency, T: temperature of the shift): "
-        + ", ".join(found)
-        + "."
+    found = zip(TEMPERATURES_F, table.outside, strict=True)
+    said = statements(
+        "mepdg.j2",
+        table=table,
+        law=table.law,
+        shifts=list(zip(TEMPERATURES_F, table.log_shift, strict=True)),
+        undefined=bool(np.isnan(table.log_shift).any()),
+        beyond=[(t, f, why) for t, row in found for f, why in zip(FREQUENCIES, row, strict=True) if why],
     )
+    columns = [f"E_psi_at_{f:g}_Hz" for f in FREQUENCIES]
+    index = pd.Index([f"{t:g}" for t in TEMPERATURES_F], name="temperature_F")
+    moduli = pd.DataFrame(table.modulus, index, columns)
+    lines = [comment("#", said)]
+    if table.spread is not None:
+        low, high = moduli / table.spread, moduli * table.spread
+        lines.append("# 95 % interval of |E*| of the law, psi, in the order of the table:")
+        for t in index:
+            ends = zip(low.loc[t], high.loc[t], strict=True)
+            cells = [f"{a:.0f} to {b:.0f}" if np.isfinite(a) else "" for a, b in ends]
+            lines.append(f"# {t}, {', '.join(cells)}")
+    return "\n".join([*lines, moduli.to_csv(float_format="%.0f", lineterminator="\n")])

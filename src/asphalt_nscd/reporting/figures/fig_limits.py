@@ -14,8 +14,10 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE
-from asphalt_nscd.diagnosis.written import limits_by_place, place_name, read_diagnosis, shown, three_digits
+from asphalt_nscd.diagnosis.written import read_diagnosis, shown, three_digits
+from asphalt_nscd.files.words import specimen_named
 from asphalt_nscd.reporting.figures import style
+from asphalt_nscd.reporting.figures.numbers import celsius
 
 ROW, FRAME = 4.2, 11.0  # mm of a bar, and of the rest of its cause's panel
 NONE = "No cause of the catalogue could have shown in these data."
@@ -31,14 +33,20 @@ def draw(diagnosis: list[Path]) -> Figure:
         axes.set_axis_off()
         axes.text(0.5, 0.5, NONE, ha="center", va="center", transform=axes.transAxes)
         return figure
-    found = {(rung["cause"], place_name(rung["where"])): _amplitude(rung) for rung in content["ladder"]}
-    bars = {cause: limits_by_place(cause, limit) for cause, limit in limits.items()}
+    found = {(rung["cause"], str(rung["where"] or "")): _amplitude(rung) for rung in content["ladder"]}
+    bars = {cause: limit.get("places", {"": limit["value"]}) for cause, limit in limits.items()}
     sizes = [len(rows) * ROW + FRAME for rows in bars.values()]
     figure, panels = style.new_figure(
         style.SINGLE, sum(sizes) + 12.0, rows=len(bars), squeeze=False, gridspec_kw={"height_ratios": sizes}
     )
     for axes, (cause, rows) in zip(panels[:, 0], bars.items(), strict=True):
         _panel(axes, cause, rows, limits[cause]["unit"], found)
+        names = (
+            specimen_named
+            if limits[cause].get("confined_to") == "specimen"
+            else lambda at: celsius(float(at))
+        )
+        axes.set_yticks(range(len(rows)), [place and names(place) for place in rows])
     keys: list[Artist] = [Patch(color=style.PALE, label="not seen: below the detection limit (95 %)")]
     if any(cause in limits for cause, _ in found):
         keys.append(Line2D([], [], marker="D", color=style.ORANGE, label="found, with its 95 % interval"))
@@ -70,7 +78,6 @@ def _panel(axes: Axes, cause: str, rows: dict[str, float], unit: str, found: dic
                 markeredgecolor=style.INK,
                 zorder=3,
             )
-    axes.set_yticks(range(len(rows)), list(rows))
     axes.set_ylim(len(rows) - 0.4, -0.6)  # the first place on top
     axes.set_xlim(left=0.0)
     axes.margins(x=0.12)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
@@ -12,7 +12,7 @@ from asphalt_nscd.forecasting.forecast import Forecast
 from asphalt_nscd.forecasting.written import PARTS, amplification, composition
 from asphalt_nscd.reporting.figures import style
 
-TITLES = {"hirsch": "Hirsch", "witczak": "Witczak (2006)", "differential": "volumes alone"}
+TITLES = {"hirsch": "Hirsch", "witczak": "Witczak 1-40D", "differential": "volumes alone"}
 
 
 @style.journal
@@ -36,7 +36,7 @@ def parts(found: Forecast) -> Figure:
     axes[2].set_yscale("log")
     axes[2].set_xlabel("|E*| of the binder (MPa)")
     axes[2].set_ylabel("mix over binder")
-    axes[2].legend()
+    figure.legend(*axes[2].get_legend_handles_labels(), loc="outside upper right", ncols=3)
     for panel, axis in zip("abc", axes, strict=True):
         style.letter(axis, panel)
     return figure
@@ -63,7 +63,7 @@ def curves(
             if f"{rival}_{name}" in others:
                 axis.plot(x, others[f"{rival}_{name}"], color=style.GREY, ls=dash, lw=0.8, label=title)
         axis.set_xscale("log")
-        axis.set_xlabel(f"reduced frequency (Hz){_reference(found)}")
+        axis.set_xlabel(_reduced(found))
     axes[2].plot(frame["phase_deg"], frame["E_MPa"], color=style.BLUE, lw=1.6)
     for dash, rival in zip(style.DASHES[1:], TITLES, strict=False):
         if f"{rival}_phase_deg" in others:
@@ -85,22 +85,28 @@ def curves(
     axes[1].set_ylabel("phase angle (°)")
     axes[2].set_xlim(0.0, 90.0)
     axes[2].set_xlabel("phase angle (°)")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=3)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncols=5)
     for panel, axis in zip("abc", axes, strict=True):
         style.letter(axis, panel)
     return figure
 
 
-def _reference(found: Forecast) -> str:
-    shift = found.recipe.binder.shift
-    return f", at {shift.reference_temperature:g} °C" if found.recipe.shifted else ""
+def _reduced(found: Forecast) -> str:
+    if not found.recipe.shifted:
+        return "frequency (Hz)"
+    low, high = found.recipe.temperature.min(), found.recipe.temperature.max()
+    reference = found.recipe.binder.shift.reference_temperature
+    return f"reduced frequency (Hz)\n{low:g} to {high:g} °C, at {reference:.3g} °C"
 
 
 @style.journal
-def inputs(words: Sequence[str], percent: Sequence[float]) -> Figure:
-    """What moves the answer most: bars, the longest on top."""
-    figure, axes = style.new_figure(style.SINGLE, 10.0 + 7.0 * len(words))
-    order = np.argsort(percent)
-    axes.barh([words[k] for k in order], [percent[k] for k in order], color=style.BLUE)
-    axes.set_xlabel("change of |E*| (%)")
+def inputs(recipe: Mapping[str, float], model: Mapping[str, float]) -> Figure:
+    """What moves |E*|, up or down: numbers of the recipe, the strongest on top, and below them those of the model."""
+    figure, axes = style.new_figure(style.SINGLE, 10.0 + 7.0 * (len(recipe) + len(model)))
+    for moved, color, label in ((model, style.GREY, "the model"), (recipe, style.BLUE, "the recipe")):
+        words = sorted(moved, key=lambda one: abs(moved[one]))
+        axes.barh(words, [moved[one] for one in words], color=color, label=label)
+    axes.axvline(0.0, color=style.INK, lw=0.6)
+    axes.set_xlabel("mean change of |E*| (%)")
+    axes.legend()
     return figure

@@ -13,14 +13,15 @@ import pandas as pd
 from fpdf import FPDF
 from fpdf.fonts import FontFace
 
-from asphalt_nscd.diagnosis.words.brief import rows
-from asphalt_nscd.diagnosis.written import place_name, read_diagnosis, read_residuals
+from asphalt_nscd.diagnosis.words.answer import Words
+from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.files.store import atomic_path
 from asphalt_nscd.files.words import joined
 from asphalt_nscd.measurements.kinds import TEST_TYPES
 from asphalt_nscd.reporting.figures import fig_master, panels, style
+from asphalt_nscd.reporting.figures.numbers import celsius
 from asphalt_nscd.reporting.figures.save import figure_bytes
-from asphalt_nscd.reporting.pages.diagnosis_page import law, value
+from asphalt_nscd.reporting.pages.diagnosis_page import law
 from asphalt_nscd.reporting.pages.style import typeset
 from asphalt_nscd.reporting.settings import Heading
 
@@ -111,7 +112,7 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf.rows(_about(content, title, heading), (1.0, 3.0), first_row_as_headings=False)
     pdf.heading("Result")
     pdf.set_font(FONT, "B", 10.5)
-    pdf.text_block(value(content["reported"]))
+    pdf.text_block(typeset(Words(content)("value")[0]))
     pdf.set_font(FONT, size=SIZE)
     pdf.text_block(
         "In brackets: 95 % intervals. Points: tests as measured. Line and values: the mix; certain faults are taken "
@@ -169,7 +170,7 @@ def _grid(pdf: _Report, table: pd.DataFrame) -> None:
     table = table.iloc[1:]  # the first stands above
     temperatures = table["temperature_C"].unique()
     cells = {(row.temperature_C, row.frequency_Hz): row for row in table.itertuples()}
-    head = ["Hz", *(place_name(at) for at in temperatures)]
+    head = ["Hz", *(celsius(at) for at in temperatures)]
     grey = FontFace(color=(150, 150, 150), size_pt=7.0)
     with pdf.table(
         col_widths=(0.6, *[1.4] * len(temperatures)),
@@ -203,7 +204,7 @@ def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[s
     """Of the answer the rows with a label of `wanted`, as they are printed."""
     kept = [
         (label, [one for one in said if not any(word in one for word in AT_COMMAND_LINE)])
-        for label, said in rows(content)
+        for label, said in Words(content).rows()
         if label in wanted
     ]
     return [(label, typeset(" ".join(said)).replace("law.json", "the law")) for label, said in kept if said]
@@ -217,7 +218,7 @@ def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
         return
     groups = told.groupby(["specimen", "temperature_C", "status", "reasons"], sort=False)["frequency_Hz"]
     lines = [
-        (specimen, place_name(at), joined([f"{f:g}" for f in hertz]), status, typeset(reasons))
+        (specimen, celsius(at), joined([f"{f:g}" for f in hertz]), status, typeset(reasons))
         for (specimen, at, status, reasons), hertz in groups
     ]
     pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))

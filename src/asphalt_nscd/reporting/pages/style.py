@@ -13,7 +13,9 @@ import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from asphalt_nscd.diagnosis.words.sentences import capital
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.words import counted, joined, three_digits
 
 
 def _own(name: str) -> str:
@@ -36,6 +38,8 @@ CELSIUS, DEGREES, MINUS = (
 
 def typeset(text: str) -> str:
     """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus."""
+    if isinstance(text, Markup):  # of our own, with signs of its own
+        return text
     text = DEGREES.sub("°", CELSIUS.sub("°C", text).replace("+-", "±"))
     return MINUS.sub("\N{MINUS SIGN}", text)
 
@@ -54,7 +58,8 @@ def environment() -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    made.filters |= {"worded": worded, "typeset": typeset}
+    made.filters |= {"worded": worded, "typeset": typeset, "counted": counted, "joined": joined}
+    made.filters |= {"capital": capital, "three_digits": three_digits}
     return made
 
 

@@ -1,0 +1,213 @@
+"""What a diagnosis holds, as its words ask for it: which causes and tests, and whether more than scatter is left."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes._cause import MATERIAL
+from asphalt_nscd.diagnosis.content import ITSELF, LEFT_OUT
+from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP
+from asphalt_nscd.diagnosis.observed import quality
+from asphalt_nscd.diagnosis.screening import levels
+from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
+from asphalt_nscd.diagnosis.words.sentences import cause_words, numbers, spell_cause
+from asphalt_nscd.diagnosis.written import interval_text, mean_averages, name_at
+from asphalt_nscd.files.words import joined, specimen_named
+
+Content = Mapping[str, Any]
+LAW = "relaxation_spectrum"
+EFFECTS = {cause.name for cause in CATALOGUE if cause.stage == MATERIAL and not cause.confined_to}
+ALTERING = {cause.name for cause in CATALOGUE if cause.alters_tests}
+OF_THE_MIX = EFFECTS | {LAW, BOND_MAPPING}
+FIT_WORSE = 1.05  # times the misfit without a cause, from which it is told that the cause does not help
+WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
+MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
+SAME = 1e-3  # relative difference of errors of one law
+
+
+def unused_tests(content: Content) -> list[Content]:
+    """Suspect tests that the diagnosis left out, in their order."""
+    return [one for one in content["suspect_tests"] if one["status"] == LEFT_OUT]
+
+
+def doubtful_tests(content: Content) -> list[Content]:
+    """Tests that their own isotherm speaks against and that the diagnosis used all the same, in their order."""
+    tests = content["suspect_tests"]
+    return [one for one in tests if ITSELF in one["decided_by"] and one["status"] != LEFT_OUT]
+
+
+def by_isotherm(tests: Sequence[Content]) -> list[tuple[str, float, tuple[str, ...], list[float]]]:
+    """Tests of one specimen and isotherm with the same reasons: specimen, degC, reasons and frequencies [Hz]."""
+    alike: dict[tuple[str, float, tuple[str, ...]], set[float]] = {}
+    for one in tests:
+        place = one["specimen"], one["temperature_C"], tuple(one["reasons"])
+        alike.setdefault(place, set()).add(one["frequency_Hz"])
+    return [(*place, sorted(frequencies)) for place, frequencies in alike.items()]
+
+
+def rungs_of(content: Content, kind: str) -> list[Content]:
+    """Named causes: a "fault" of the tests, or an "effect" of the mix beside its relaxation, in the ladder's order."""
+    ladder = content["ladder"]
+    if kind == "fault":
+        return [rung for rung in ladder if rung["cause"] not in OF_THE_MIX]
+    return [rung for rung in ladder if rung["cause"] in EFFECTS]
+
+
+def rivalled_by_a_fault(effects: Sequence[Content]) -> bool:
+    """Whether a fault of the tests fits as well as one of these effects of the mix."""
+    rivals = (name for rung in effects for name in rung["as_good"])
+    return any(name.partition(" @ ")[0] not in OF_THE_MIX for name in rivals)
+
+
+def rivals(rung: Content, content: Content, named: bool = False) -> list[str]:
+    """Causes that fit as well as a name, in words: those that were not `named`, or those that were."""
+    known = {name_at(one["cause"], one["where"]) for one in content["ladder"]}
+    return [spell_cause(name) for name in rung["as_good"] if (name in known) == named]
+
+
+def worsens(rung: Content) -> bool:
+    """Whether the tests, counted alike, fit worse with a cause than without it."""
+    fits = rung["gain"]["in_sample"].get("rms_over_scatter")
+    return bool(fits) and fits["after"] > FIT_WORSE * fits["before"]
+
+
+def changed(content: Content, key: str) -> tuple[list[str], list[str], bool]:
+    """Causes that another choice of tests would name more, those it would not, and whether it names others too."""
+    now = [cause_words(rung) for rung in content["ladder"] if rung["cause"] not in (BOND_MAPPING, LAW)]
+    then = [cause_words(rung) for rung in content[key]["causes"] if rung["cause"] != LAW]
+    more = [name for name in then if name not in now]
+    return more, [name for name in now if name not in then], len(more) < len(then)
+
+
+def exceeds_scatter(content: Content) -> bool:
+    """Whether named causes leave structure, by lack of fit or largest pattern left, at half a step's chance each."""
+    pattern = content["largest_pattern_left"]
+    chances = [content["lack_of_fit_p_value"], 1.0 if pattern is None else pattern["p_value"]]
+    return min(chances) <= 0.5 * ALPHA_PER_STEP
+
+
+def parts_left(content: Content, broken: Sequence[float] = ()) -> list[Content]:
+    """Parts of what no cause explains, largest first, but for those of isotherms [degC] that are told elsewhere."""
+    parts = [one for one in content["discrepancy"] if one["temperature_C"] not in broken]
+    return sorted(parts, key=lambda one: -float(one["size"]))
+
+
+def too_few_to_tell(content: Content, most: int) -> bool:
+    """Whether one of the `most` largest parts left is of a specimen, of too few to tell which one is odd.
+
+    Of few specimens each has a large part in the common curve that it is compared with.
+    """
+    few = 1 < len(content["reading"]["specimens"]) < MANY_SPECIMENS
+    return few and any(one["specimen"] is not None for one in parts_left(content)[:most])
+
+
+def exceeded(content: Content, tests: int) -> list[tuple[quality.Limit, list[str]]]:
+    """Limits of the standard that half of all `tests`, or of those of a specimen, exceed; in which, in words."""
+    above, found = content["reading"]["limits_exceeded"], []
+    share = tests / len(content["reading"]["specimens"])  # which were tested alike
+    for name, limit in quality.LIMITS.items():
+        of = [one["specimen"] for one in above if one["column"] == name]
+        counts = {specimen: of.count(specimen) for specimen in of}
+        if of and (2 * len(of) >= tests or 2 * max(counts.values()) >= share):
+            where = [f"{count} of {specimen_named(name)}" for name, count in counts.items()]
+            found.append((limit, [where[0].replace(" of ", " tests of ", 1), *where[1:]]))
+    return found
+
+
+def held_back(content: Content) -> list[str]:
+    """What law.json and reported.csv are made without until a check clears it, in words; empty where nothing is."""
+    if not content["trust"]["held_back"]:
+        return []
+    highest = content["highest_frequency"]
+    at = [] if highest is None else [f"the tests at {highest['frequency_Hz']:g} Hz"]
+    return [*levels.places(content["odd_levels"], content["odd_phases"]), *at]
+
+
+def misses(content: Content, left: Mapping[str, float] | None) -> tuple[list[float], list[float]]:
+    """Errors [%] of |E*| and phase, mean over temperatures, before the first rung of the ladder and after the last.
+
+    `left`: errors of "E" and "phase" that tests simulated with the law have left; else those of the diagnosis.
+    """
+    first, last = (mean_averages(content["ladder"][k]["gain"]["in_sample"]).values() for k in (0, -1))
+    after = [errors["after"] for errors in last] if left is None else [left["E"], left["phase"]]
+    return [errors["before"] for errors in first], after
+
+
+def made_worse(before: Sequence[float], after: Sequence[float]) -> list[str]:
+    """In what a law with fewer parameters misses what it was made for by more."""
+    pairs = zip(("|E*|", "the phase"), before, after, strict=True)
+    return [part for part, was, now in pairs if now > max(WORSE * was, was + AT_ALL)]
+
+
+def begins_with_one_law(content: Content) -> bool:
+    """Whether the ladder begins with one law: of too few tests no spectrum is told, but causes rest on one."""
+    first = content["ladder"][0]
+    if first["cause"] == LAW:
+        return False
+    had = mean_averages(first["gain"]["in_sample"])["mre_E_percent"]["before"]
+    burgers = list(content["baseline"]["mre_E_percent"].values())
+    return abs(had - sum(burgers) / len(burgers)) >= SAME * had
+
+
+def contradictions(content: Content) -> list[tuple[str, list[float], list[str]]]:
+    """Sides to which the phase contradicts |E*|: "higher" or "lower", where [degC], and the most in words."""
+    found = []
+    for side, sign in (("higher", 1.0), ("lower", -1.0)):
+        here = [one for one in content["contradictory_isotherms"] if sign * one.get("worst_deg", 0.0) > 0.0]
+        here = [one for one in here if "offset_deg" not in one]
+        most = [f"{abs(one['worst_deg']):.1f} deg (at {one['worst_Hz']:g} Hz)" for one in here]
+        found += [(side, [one["temperature_C"] for one in here], most)] * bool(here)
+    return found
+
+
+def has_fault_of_one_place(content: Content) -> bool:
+    """Whether a fault of one specimen, isotherm or frequency was found beside the last fit."""
+    keys = ("odd_phases", "odd_temperatures", "contradictory_isotherms")
+    told = any("probability" in one for key in keys for one in content[key])
+    return told or content["highest_frequency"] is not None
+
+
+def odd(content: Content) -> list[str]:
+    """What is odd and what to check, a sentence each; what explains two departures comes before them."""
+    moduli, phases, temperatures = (content[f"odd_{of}"] for of in ("levels", "phases", "temperatures"))
+    return [
+        *levels.swap_notes(moduli, temperatures),
+        *levels.temperature_notes(temperatures),
+        *levels.sentences(moduli, phases),
+    ]
+
+
+def whole_specimens(content: Content) -> list[str]:
+    """Specimens whose phase is odd in all tests."""
+    return [one["specimen"] for one in content["odd_phases"] if one["temperature_C"] is None]
+
+
+def fit_as_well(rungs: Sequence[Content], content: Content) -> bool:
+    """Whether anything fits as well as one of these names."""
+    return any(rivals(rung, content) for rung in rungs)
+
+
+def off_at_highest(one: Content) -> str:
+    """By how much all tests at the highest frequency are off, in words."""
+    parts = []
+    for name, key, unit in (("|E*|", "modulus_percent", "%"), ("the phase", "phase_deg", "deg")):
+        low, high = one[f"{key.split('_')[0]}_interval_95"]
+        if low > 0.0 or high < 0.0:
+            side = "above" if one[key] > 0.0 else "below"
+            parts.append(f"{name} is {interval_text(abs(one[key]), 0.5 * (high - low))} {unit} {side}")
+    return joined(parts) or "|E*| and phase are off"
+
+
+def only_of(trust: Content) -> str:
+    """That only one specimen of several has tests that can be used, where this is so."""
+    of = [name for name, count in trust["use_by_specimen"].items() if count]
+    return f" (of {specimen_named(of[0])} only)" if len(of) == 1 < len(trust["use_by_specimen"]) else ""
+
+
+def all_of(trust: Content) -> str:
+    """What the tests to be checked have in common, where they have something."""
+    if trust["check_at_C"]:
+        return f" (all at {numbers(trust['check_at_C'])} degC)"
+    return f" (all of {joined(list(map(specimen_named, trust['check_of'])))})" if trust["check_of"] else ""
