@@ -21,7 +21,7 @@ from asphalt_nscd.rheology.priors import prior_of
 from asphalt_nscd.rheology.spectrum_fitting import fit_spectrum
 from studies.measured.mechanisms import Mechanisms, excess_of
 from studies.measured.reading import log_reading
-from studies.measured.stated import AMPLITUDES
+from studies.measured.stated import AMPLITUDES, WEAK
 
 SCATTER = 0.02, np.radians(0.4)  # of ln|E*| and phase of one test, as usual in the nine NCAT campaigns
 LEAST = 3  # frequencies of an isotherm
@@ -31,13 +31,14 @@ USUAL_AMPLITUDE = 50e-6
 
 
 PARTS = "reading", "contacts", "softening"
+BESIDE = "weak_films"  # contacts once more, among films that are weak in shear; no part of the sum
 UNLIKELY = 2.0  # standard errors
 
 
 def predictions(
     means: list[tuple[float, pd.DataFrame]], mechanisms: Mechanisms, amplitude: float
 ) -> list[dict[str, np.ndarray]]:
-    """Excess [deg] by each of PARTS at each frequency of each isotherm, by a law of |E*| alone."""
+    """Excess [deg] by each of PARTS, and BESIDE, at each frequency of each isotherm, by a law of |E*| alone."""
     temperature = np.concatenate([np.full(len(at), value) for value, at in means])
     omega = 2.0 * np.pi * np.concatenate([at.index.to_numpy() for _, at in means])
     modulus = 1e6 * np.exp(np.concatenate([at["log_modulus"] for _, at in means])) + 0j
@@ -47,11 +48,13 @@ def predictions(
     of_law = law.complex_modulus(omega, temperature)
     reading = np.degrees(log_reading(law, omega, temperature).imag)
     changes = mechanisms.contacts(of_law, amplitude), mechanisms.softening(of_law, amplitude)
+    beside = mechanisms.contacts(of_law, amplitude, WEAK)
     parts = []
     for value, at in means:
         own = temperature == value
         excesses = [excess_of(at.index.to_numpy(), of_law[own], change[own]) for change in changes]
-        parts.append(dict(zip(PARTS, [reading[own], *excesses], strict=True)))
+        own_parts = dict(zip(PARTS, [reading[own], *excesses], strict=True))
+        parts.append(own_parts | {BESIDE: excess_of(at.index.to_numpy(), of_law[own], beside[own])})
     return parts
 
 
@@ -109,8 +112,8 @@ def budget(table: pd.DataFrame) -> pd.DataFrame:
     "explained": the parts leave less than a constant fitted to this isotherm would, and a mean within UNLIKELY standard
     errors of zero; "in part": they take a quarter of the root mean square or more; else "not".
     """
-    parts = [f"{name}_deg" for name in PARTS]
-    by_mix = table.groupby(["population", "temperature_C", "mix"])[["isotherm_deg", *parts]].mean()
+    parts, other = [f"{name}_deg" for name in PARTS], f"{BESIDE}_deg"
+    by_mix = table.groupby(["population", "temperature_C", "mix"])[["isotherm_deg", *parts, other]].mean()
     rows = []
     for (population, temperature), group in by_mix.groupby(level=[0, 1]):
         measured, summed = group["isotherm_deg"], group[parts].sum(axis=1)
@@ -124,6 +127,8 @@ def budget(table: pd.DataFrame) -> pd.DataFrame:
             "standard_error_deg": measured.sem() if several else np.nan,
             **group[parts].mean(),
             "sum_deg": summed.mean(),
+            other: group[other].mean(),
+            "rms_less_weak_films_deg": _rms(measured - group[other]),
             "correlation": measured.corr(summed) if several else np.nan,
             "rms_deg": _rms(measured),
             **{f"rms_less_{name}_deg": _rms(measured - group[f"{name}_deg"]) for name in PARTS},

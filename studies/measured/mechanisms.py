@@ -22,15 +22,16 @@ class Mechanisms:
         """tables: the files NAMES, as attributes."""
         self.contact, self.binder, self.clock = (pd.read_csv(getattr(tables, name)) for name in NAMES)
 
-    def usual(self, amplitude: float) -> pd.DataFrame:
-        """Haversines of this amplitude of strain under the stated pressure and friction."""
+    def usual(self, amplitude: float, shear: float = 1.0) -> pd.DataFrame:
+        """Haversines of this amplitude of strain, by films of this stiffness in shear, as pressed as is stated."""
         of = self.contact
         stated = (of["haversine"] == 1) & (of["pressure_kPa"] == 10.0) & (of["friction"] == 0.5)
+        stated &= np.isclose(of["shear"], shear)
         return of[stated & np.isclose(of["amplitude_1e6"], 1e6 * amplitude)]
 
-    def contacts(self, modulus: Vector, amplitude: float) -> Vector:
+    def contacts(self, modulus: Vector, amplitude: float, shear: float = 1.0) -> Vector:
         """ln of what is read over E* (n,) [Pa], by grains that slip and open, at an amplitude of strain."""
-        usual = self.usual(amplitude)
+        usual = self.usual(amplitude, shear)
         phase = np.degrees(np.angle(modulus))
         levels, changes = [], []
         for _, row in usual.groupby((np.log(usual["E_MPa"]) / 0.1).round()):

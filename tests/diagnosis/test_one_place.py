@@ -145,6 +145,16 @@ def test_what_is_found_at_one_frequency_is_told_with_both_parts():
     assert at_frequency({}, [TOLD["odd_phases"]]) is None
 
 
+def test_of_the_part_that_was_not_sought_nothing_is_known():
+    """An offset at the highest of few frequencies looks like a delay, and may not be among what was estimated."""
+    at = Setting(10.0)
+    level = odd("level at one frequency", at, 0.1, 0.01)
+    low, high = at_frequency({("level at one frequency", at): (0.1, 0.01)}, [level]).content(1.0)[
+        "phase_interval_95"
+    ]
+    assert low < -20.0 and high > 20.0
+
+
 def test_a_fault_is_told_with_its_interval_and_what_to_check():
     offset, delay = (one.content(1.0, 25.0) for one in (TOLD["odd_phases"], odd(DELAY, "3", -2e-4, 2e-5)))
     assert levels.sentences([], [offset, delay]) == [

@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from test_diagnose import table as drawn
 
 import asphalt_nscd as an
 from asphalt_nscd.diagnosis.words.answer import rows

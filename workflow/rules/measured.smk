@@ -11,9 +11,9 @@ CYLINDER = {
 
 SCRIPTED |= {
     "measured_contacts": Scripted(
-        "Press poured stones that touch, open and slip; no mix is looked at: three minutes",
+        "Press poured stones that touch, open and slip; no mix is looked at: nine minutes",
         "measured/contacts",
-        {"table": MECHANISMS["contacts"]},
+        {"table": MECHANISMS["contacts"], "sign": "results/measured/sign.csv"},
         threads=4,
     ),
     "measured_softening": Scripted(
@@ -21,12 +21,6 @@ SCRIPTED |= {
         "measured/softening",
         {name: MECHANISMS[name] for name in ("binder", "clock")},
         {"recipe": RECIPE},
-    ),
-    "measured_first": Scripted(
-        "Lay the mechanisms beside what was first predicted, of other stones, before they were laid beside a mix",
-        "measured/first",
-        {"table": "results/measured/first.csv"},
-        MECHANISMS | {"first": [f"studies/measured/predictions/{name}.csv" for name in MECHANISMS]},
     ),
     "measured_amplitude": Scripted(
         "Lay the mechanisms beside tests of two laboratories at several strains",
@@ -58,6 +52,32 @@ SCRIPTED |= {
 }
 
 
+# A program of trials/, whose modules are beside it.
+TRIAL = f"env PYTHONPATH={CLONE / 'trials'}:${{PYTHONPATH-}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m"
+
+
+rule drawn_excess:
+    """Whether the excess phase of tables without one is none, and whether its interval says so. Three minutes."""
+    input:
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=[f"trials/{name}.py" for name in ("excess", "attack/laboratory", "attack/mixes")],
+    output:
+        rows="results/excess/excess.csv",
+        summary="results/excess/summary.csv",
+    log:
+        "results/excess/logs/excess.log",
+    benchmark:
+        "<results>/benchmarks/drawn_excess.tsv"
+    conda:
+        ENVIRONMENT
+    params:
+        program=f"{TRIAL} excess 200 --folder results/excess",
+    message:
+        "Find the excess phase of 200 tables that have none"
+    shell:
+        "{params.program} > {log} 2>&1"
+
+
 rule reported_intervals:
     """Whether the intervals of what is reported hold the mix, where it was not tested too. Ten minutes."""
     input:
@@ -74,7 +94,7 @@ rule reported_intervals:
     conda:
         ENVIRONMENT
     params:
-        program=f"env PYTHONPATH={CLONE / 'trials'}:${{PYTHONPATH-}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m extrapolation",
+        program=f"{TRIAL} extrapolation",
         size="10 100 --seed 20281128",
     message:
         "Diagnose campaigns of three temperatures, and hold what is reported against their mixes"
@@ -82,11 +102,12 @@ rule reported_intervals:
         "{params.program} {params.size} --measured {input.measured} --folder results/intervals > {log} 2>&1"
 
 
+RECORDED["excess"] = ("excess", ["excess.csv", "summary.csv"])
 RECORDED["intervals"] = ("intervals", ["grid.csv", "summary.csv"])
 RECORDED["measured"] = (
     "measured",
     [
         *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png"),
-        *("amplitude.csv", "contacts.csv", "binder.csv", "clock.csv", "first.csv"),
+        *("amplitude.csv", "contacts.csv", "sign.csv", "binder.csv", "clock.csv"),
     ],
 )

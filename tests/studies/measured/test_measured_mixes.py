@@ -13,10 +13,12 @@ from asphalt_nscd.bending.excerpt import read_excerpt, write_excerpt
 from asphalt_nscd.bending.model import read_model
 from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.files.store import save
+from asphalt_nscd.nscd.stepping.skeleton import Skeleton
 from asphalt_nscd.rheology.as_run import Programme, modulus_as_read
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
+from studies.measured.contacts import HAVERSINE, followed
 from studies.measured.excess import PARTS, budget, excess
 from studies.measured.ladder import averages, errors, rungs
 from studies.measured.mechanisms import Mechanisms, excess_of
@@ -120,6 +122,28 @@ def test_changes_of_a_mix_lie_between_those_that_were_simulated():
     assert found[0] == pytest.approx(row["lnE"] + 1j * np.radians(row["change_deg"]), abs=2e-3)
     softest = 1e6 * MECHANISMS.contact["E_MPa"].min() * np.exp(1j * np.angle(modulus))
     assert found[1] == pytest.approx(MECHANISMS.contacts(np.array([softest]), 1e-6 * row["amplitude_1e6"])[0])
+
+
+@pytest.mark.parametrize(("axis", "share"), [([0.0, 0.0, 1.0], 0.5), ([1.0, 0.0, 0.0], -0.15)])
+def test_a_contact_that_follows_the_mean_strain(axis, share):
+    """Along the axis it gains half of its strain over its overlap by a haversine; across it loses that times 0.3."""
+    model = SimpleNamespace(
+        shape={"first": [0], "second": [1], "position_m": np.array([[0.0, 0.0, 0.0], axis]) * 0.01},
+        geometry=SimpleNamespace(h=0.1),
+    )
+    model.shape |= {end: np.array(model.shape[end]) for end in ("first", "second")}
+    skeleton = Skeleton(np.array([0]), np.array([2e-3]), np.array([1e-6]), 31e9, 0.9, 0.5)
+    angle, strain = HAVERSINE.angles(), 1e-6
+    ran = SimpleNamespace(displacement=0.1 * strain * HAVERSINE.stress(angle), angle=angle)
+    change = followed(model, skeleton, 0.3, ran, HAVERSINE)
+    assert change.real == pytest.approx(share * strain * 0.01 / 1e-6, rel=0.02) and abs(change.imag) < 1e-4
+
+
+def test_pressing_alone_stiffens_contacts_of_all_directions_up_to_a_ratio_of_0_65():
+    """The mean of k times the cube of the opening, c^2 - nu s^2, over all directions."""
+    cosine = (np.arange(20000) + 0.5) / 20000
+    gain = [np.mean((cosine**2 - nu * (1.0 - cosine**2)) ** 3) for nu in (0.65, 0.66)]
+    assert gain[0] > 0.0 > gain[1]
 
 
 def test_a_softer_film_in_tension_compression_falls_as_its_binder_says():

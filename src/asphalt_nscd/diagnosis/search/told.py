@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.causes._cause import Setting, Sweep
+from asphalt_nscd.diagnosis.causes.one_place import ANGLE, LEVEL
 from asphalt_nscd.diagnosis.criteria import NOTICED, TORN
 from asphalt_nscd.diagnosis.model import likelihood
 from asphalt_nscd.diagnosis.model.fit_beside import State
@@ -109,7 +110,11 @@ def at_frequency(estimates: Mapping[tuple, tuple[float, float]], found: list[Odd
         return None
     place = max(at, key=lambda one: one.probability).candidate.place
     assert isinstance(place, Setting)
-    modulus, phase = (estimates[f"{part} at one frequency", place] for part in ("level", "offset"))
+    # What no table could tell from another cause is not sought: nothing is known of it.
+    modulus, phase = (
+        estimates.get((f"{part} at one frequency", place), (0.0, parameter.high))
+        for part, parameter in (("level", LEVEL), ("offset", ANGLE))
+    )
     return AtFrequency(place.frequency, modulus, (float(np.radians(phase[0])), float(np.radians(phase[1]))))
 
 
