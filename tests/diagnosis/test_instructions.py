@@ -13,11 +13,11 @@ from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
 from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
-from asphalt_nscd.diagnosis.next_tests import orders as instructions
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, possible
 from asphalt_nscd.diagnosis.next_tests.information import Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep, noise_of
 from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.record import instructions
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.words import order_words
 from asphalt_nscd.diagnosis.words.sentences import spell_cause

@@ -40,6 +40,11 @@ def capital(words: str) -> str:
     return f"{words[:1].upper()}{words[1:]}"
 
 
+def numbers(values: Sequence[float], last: str = "and") -> str:
+    """`4, 20 and 40`."""
+    return joined([f"{value:g}" for value in values], last)
+
+
 def choice(option: str, menu: str) -> str:
     """What a user does to choose: give an option of the command line, or take what the page has in its place."""
     return menu if os.environ.get(ON_PAGE) else option

@@ -11,14 +11,14 @@ from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.next_tests.sweeps import BEYOND, COLDEST, METAL, NEW, WARMEST, Costs, temperatures
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.words.sentences import band, numbers
-from asphalt_nscd.files.words import counted, joined, specimen_named
+from asphalt_nscd.files.words import counted, joined, numbers, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 
 Orders = list[dict[str, Any]]
 CLEAR = 3.0  # standard errors of an excess phase
 STRAINS = 25, 75  # 1e-6
 HALF = ", at half the strain"
+MANY = 4  # frequencies from which only the ends are told
 
 
 def gauges(done: Observations, costs: Costs) -> Orders:
@@ -168,3 +168,10 @@ def named(specimens: Sequence[str]) -> str:
     if len(own) > 1 and specimen_named(own[0]) != own[0]:
         return joined([f"specimens {joined(own)}", *others])
     return joined([*map(specimen_named, own), *others])
+
+
+def band(frequencies: Sequence[float]) -> str:
+    """Frequencies [Hz], ascending, in words: `1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`."""
+    if len(frequencies) < MANY:
+        return f"{numbers(frequencies)} Hz"
+    return f"{frequencies[0]:g} to {frequencies[-1]:g} Hz ({len(frequencies)} frequencies)"

@@ -12,14 +12,14 @@ import numpy as np
 
 from asphalt_nscd.diagnosis import written
 from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.next_tests.fixed_orders import MANY, band  # noqa: F401  of the templates
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.written import shown, three_digits
-from asphalt_nscd.files.words import joined, specimen_named
+from asphalt_nscd.files.words import joined, numbers, specimen_named
 
 Content = Mapping[str, Any]
 CAUSES = {cause.name: cause for cause in CATALOGUE}
 SURE = 1e-6  # chance below which no number is told
-MANY = 4  # frequencies from which only the ends are told
 
 
 def cause_words(rung: Content) -> str:
@@ -109,11 +109,6 @@ def size_left(part: str, value: float, scatter: Mapping[str, float]) -> str:
     return f"{size:.1f} {unit}" if size >= 0.1 else f"{size:.1g} {unit}"
 
 
-def numbers(values: Sequence[float], last: str = "and") -> str:
-    """`4, 20 and 40`."""
-    return joined([f"{value:g}" for value in values], last)
-
-
 def typed(unit: str) -> str:
     """A unit as it is typed without a degree sign: deg or degC."""
     return {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
@@ -128,13 +123,6 @@ def noun(rung: Content) -> str:
     """A named cause as a thing that tests show, with its article."""
     words = cause_words(rung)
     return article(words.replace("specimen geometry", "error of the dimensions") if rung["where"] else words)
-
-
-def band(frequencies: Sequence[float]) -> str:
-    """Frequencies [Hz], ascending, in words: `1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`."""
-    if len(frequencies) < MANY:
-        return f"{numbers(frequencies)} Hz"
-    return f"{frequencies[0]:g} to {frequencies[-1]:g} Hz ({len(frequencies)} frequencies)"
 
 
 def shift(rung: Content, content: Content) -> list[str]:
