@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.model import start
-from asphalt_nscd.diagnosis.model.bases import BurgersAtEach
-from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
+from asphalt_nscd.diagnosis.model import discrepancy, fit_beside, laboratory, start
+from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.observed import scatter
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
@@ -62,7 +61,10 @@ def doubts_of(observed: Observations, *names: str | Candidate) -> dict:
     noise = scatter.stated(observed, *SCATTER, 0.03)
     joint, fitted = start.fit_spectrum(observed, noise)
     named = [n if isinstance(n, Candidate) else Candidate(CAUSES[n], None, (0.0,)) for n in names]
-    return find_doubts(joint, joint.fit(fitted.law, fitted.scales, tuple(named)), named)
+    alone = laboratory.alone(joint)
+    processes = laboratory.processes(alone, alone.linearise(fitted.law, fitted.scales, ()))
+    least = np.full(len(processes.described), discrepancy.LEAST)
+    return find_doubts(fit_beside.settle(alone, processes, fitted, tuple(named), least), named)
 
 
 def late(omega, temperature):
@@ -147,14 +149,6 @@ def test_no_less_than_nothing_moves(mass, doubted):
     )
     reasons = doubts_of(observed, "moving_mass").get(("moving_mass", None), [])
     assert ("Less than no mass would move: the reduction counts 316 g" in reasons) == doubted
-
-
-def test_names_against_burgers_laws_are_not_judged():
-    observed = table(turned)
-    joint = Joint(observed, BurgersAtEach(observed.isotherms), scatter.stated(observed, *SCATTER, 0.03))
-    _, burgers = start.fit_burgers_at_each(observed, joint.noise)
-    candidate = Candidate(CAUSES["phase_offset"], None, (0.1,))
-    assert find_doubts(joint, joint.fit(burgers.law, burgers.scales, (candidate,)), [candidate]) == {}
 
 
 def test_a_name_in_doubt_explains_nothing(monkeypatch):

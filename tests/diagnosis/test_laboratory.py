@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from test_diagnose import LAW, table
 
-from asphalt_nscd.diagnosis.model import laboratory, start
+from asphalt_nscd.diagnosis.model import fit_beside, laboratory, start
 from asphalt_nscd.diagnosis.model.joint import Joint
 from asphalt_nscd.diagnosis.observed import scatter
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
@@ -38,6 +38,15 @@ def slowed(times, seed=3):
 
 def fitted(observed):
     return start.fit_spectrum(observed, scatter.stated(observed, *NOISE))
+
+
+def begun(joint, fit):
+    return fit_beside.begin(laboratory.alone(joint), fit)
+
+
+def sizes(observed):
+    state = begun(*fitted(observed))
+    return laboratory.inferred(state.model.processes, state.variances).sizes
 
 
 def test_a_column_is_what_one_kelvin_or_one_mounting_does():
@@ -82,7 +91,7 @@ def test_sizes_follow_the_table(kind):
         if kind == "specimen temperature"
         else replace(still, modulus=still.modulus * np.exp(0.04 * drawn[block]))
     )
-    small, large = (laboratory.estimate(*fitted(observed)).sizes[kind] for observed in (still, moved))
+    small, large = (sizes(observed)[kind] for observed in (still, moved))
     usual, drawn_size = (
         laboratory.LABORATORY[kind].size,
         {"specimen temperature": 1.0}.get(kind, 0.04) * drawn.std(),
@@ -92,27 +101,13 @@ def test_sizes_follow_the_table(kind):
     )  # drawn to the usual size by its prior
 
 
-@pytest.mark.parametrize("offset", [1.0, 5.0, -8.0])
-def test_an_angle_that_all_phases_share_is_no_error_of_mountings(offset):
-    """Mountings of two specimens vary by 0.34 deg. A law bent to the angle leaves moduli off by as much as 10 %."""
-    observed = table(3)
-    still = observed.subset((observed.isotherm % 15 == 0) & (observed.specimen < 2))
-    drawn = np.radians(0.3) * np.random.default_rng(6).standard_normal((2, 3))
-    moved = np.exp(1j * drawn[still.specimen, np.searchsorted(still.isotherms, still.isotherm)])
-    sizes = [
-        laboratory.add_laboratory(
-            *fitted(replace(still, modulus=still.modulus * moved * np.exp(1j * np.radians(angle))))
-        )[1].sizes
-        for angle in (0.0, offset)
-    ]
-    assert sizes[1] == pytest.approx(sizes[0], rel=1e-3)
-
-
 def test_the_scatter_holds_every_effect_once():
     """Two tests of one mounting share its level, its phase and its temperature; of one isotherm, the temperature."""
     joint, fit = fitted(table(3))
     joint = Joint(joint.observed, joint.base, replace(joint.noise, shared=0.5 * joint.noise.within))
-    with_it, found = laboratory.add_laboratory(joint, fit)
+    state = begun(joint, fit)
+    with_it, found = state.everyday, laboratory.inferred(state.model.processes, state.variances)
+    fit = state.fitted
     assert not with_it.noise.shared.any()
     n, observed = joint.observed.size, joint.observed
     per_kelvin, per_time = (
@@ -130,18 +125,6 @@ def test_the_scatter_holds_every_effect_once():
         expected = np.outer(along, along) * kelvin + found.sizes[f"mounting, {name}"] ** 2 * mounted
         expected += np.outer(slower, slower) * found.sizes["specimen times"] ** 2 * own
         assert np.allclose(covariance[rows, rows], expected, rtol=1e-9, atol=1e-15)
-
-
-@pytest.mark.parametrize(
-    "kind,moved",
-    [
-        ("isotherm temperature", lambda: warmed(np.array([0.0, 0.0, 1.5, 0.0, 0.0, 0.0]))),
-        ("specimen times", lambda: slowed((0.0, 0.4, 0.0, 0.0))),
-    ],
-)
-def test_one_at_fault_does_not_enlarge_what_is_usual_of_the_others(kind, moved):
-    careful, faulty = (laboratory.estimate(*fitted(one)).sizes[kind] for one in (table(3), moved()))
-    assert careful < 0.6 * laboratory.LABORATORY[kind].size and faulty < 2.0 * careful
 
 
 def test_limits_of_a_careful_laboratory_do_not_grow():

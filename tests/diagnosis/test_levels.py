@@ -7,7 +7,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from contents import SOUND
-from test_diagnose import table
 
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.record.law import law_of_mix
@@ -34,97 +33,14 @@ def turned(observed, hit, degrees):
     return replace(observed, modulus=observed.modulus * np.exp(1j * np.radians(degrees) * hit))
 
 
-@pytest.mark.parametrize("factor", [0.6, 1.5, 3.0])
-def test_one_isotherm_of_one_specimen_is_named(factor):
-    observed = table(3)
-    specimen, t = observed.names[1], float(observed.isotherms[1])
-    hit = (observed.specimen == 1) & (observed.isotherm == t)
-    wrong = replace(observed, modulus=np.where(hit, factor, 1.0) * observed.modulus)
-    (one,) = levels.odd(wrong)
-    assert (one["specimen"], one["temperature_C"]) == (specimen, t)
-    assert one["factor"] == pytest.approx(factor, rel=0.1)
-    (sentence,) = levels.sentences([one], [])
-    assert sentence.startswith(
-        f"specimen {specimen} at {t:g} degC: |E*| {one['factor']:.2f} times what its other"
-    )
-
-
-def test_a_stiffer_specimen_and_usual_scatter_are_not_odd():
-    observed = table(3)
-    assert levels.odd(observed) == []
-    stiffer = replace(observed, modulus=np.where(observed.specimen == 1, 1.5, 1.0) * observed.modulus)
-    assert levels.odd(stiffer) == []
-
-
-def test_of_two_specimens_neither_is_odd():
-    observed = table(3)
-    two = observed.subset(observed.specimen < 2)
-    hit = (two.specimen == 1) & (two.isotherm == two.isotherms[0])
-    assert levels.odd(replace(two, modulus=np.where(hit, 2.0, 1.0) * two.modulus)) == []
-
-
-@pytest.mark.parametrize("factor", [1.1, 1.2])
-def test_a_small_factor_is_named_where_the_levels_leave_no_doubt(exports, factor):
-    hit = (exports.specimen == 1) & (exports.isotherm == 20)
-    (one,) = levels.odd(replace(exports, modulus=np.where(hit, factor, 1.0) * exports.modulus))
-    assert (one["specimen"], one["temperature_C"]) == ("Mix-B", 20)
-    assert one["factor"] == pytest.approx(factor, rel=0.02)
-    assert levels.odd(exports) == levels.odd_phases(exports) == []
-
-
-@pytest.mark.parametrize("degrees", [4.0, -4.0, 20.0])
-def test_the_phase_of_one_isotherm_is_named(exports, degrees):
-    hit = (exports.specimen == 1) & (exports.isotherm == 20)
-    (one,) = levels.odd_phases(turned(exports, hit, degrees))
-    assert (one["specimen"], one["temperature_C"]) == ("Mix-B", 20)
-    assert one["phase_deg"] == pytest.approx(degrees, abs=0.2)
-    (sentence,) = levels.sentences([], [one])
-    side = "above" if degrees > 0.0 else "below"
-    assert sentence.startswith(
-        f"specimen Mix-B at 20 degC: phase {abs(one['phase_deg']):.1f} deg {side} what its other"
-    )
-
-
-def test_two_odd_isotherms_are_both_named(exports):
-    first = (exports.specimen == 1) & (exports.isotherm == 20)
-    second = (exports.specimen == 0) & (exports.isotherm == 50)
-    found = levels.odd_phases(turned(exports, 2.0 * first - second, 4.0))
-    assert [(one["specimen"], one["temperature_C"]) for one in found] == [("Mix-A", 50), ("Mix-B", 20)]
-
-
-def test_a_phase_that_is_off_at_all_temperatures_belongs_to_the_specimen(exports):
-    (one,) = levels.odd_phases(turned(exports, exports.specimen == 1, 4.0))
-    assert (one["specimen"], one["temperature_C"]) == ("Mix-B", None)
-    assert one["phase_deg"] == pytest.approx(4.0, abs=0.2)
-    (sentence,) = levels.sentences([], [one])
-    assert sentence.startswith(
-        "specimen Mix-B: phase 4.0 deg above the mean of the other specimens: check its"
-    )
-
-
-def test_a_degree_and_a_half_of_a_whole_specimen_is_odd_and_told_as_steady(exports):
-    (one,) = levels.odd_phases(turned(exports, exports.specimen == 2, 1.5))
-    assert (one["specimen"], one["temperature_C"]) == ("Mix-C", None)
-    assert one["phase_deg"] == pytest.approx(1.5, abs=0.2)
+def test_an_odd_phase_of_a_whole_specimen_is_told_as_steady():
+    one = {"specimen": "Mix-C", "temperature_C": None, "phase_deg": 1.5}
     part = {"kind": "specimen", "part": "phase", "temperature_C": None, "specimen": "Mix-C", "size": 2.0}
     found = SOUND | {"discrepancy": [part], "scatter": {"phase_deg": 0.5}}
     (steady, _) = left(found | {"odd_phases": [one]})
     (changing,) = left(found)
     assert steady == "1.0 deg in the phase of specimen Mix-C, most of it alike in all its tests"
     assert changing.endswith("changing with frequency and temperature")
-
-
-def test_a_phase_off_in_proportion_names_no_isotherm(exports):
-    """Another mix, say: the departure grows with the phase itself."""
-    phase = np.degrees(exports.logarithm.imag)
-    found = levels.odd_phases(turned(exports, exports.specimen == 1, 0.2 * phase))
-    assert [one["temperature_C"] for one in found] == [None]
-
-
-def test_of_two_specimens_neither_phase_is_odd(exports):
-    two = exports.subset(exports.specimen < 2)
-    assert levels.odd_phases(turned(two, two.specimen == 1, 4.0)) == []
-    assert levels.odd_phases(turned(two, (two.specimen == 1) & (two.isotherm == 20), 4.0)) == []
 
 
 def test_what_agrees_to_within_a_scatter_with_an_odd_isotherm_says_so():
@@ -150,7 +66,7 @@ def test_the_law_is_nearer_to_the_mix_without_an_odd_isotherm(exports):
         diagnose(replace(exports, modulus=np.where(hit, factor, 1.0) * exports.modulus), draws=500)
         for factor in (1.0, 0.7)
     )
-    odd = levels.odd(wrong.whole)
+    odd = wrong.ladder.confined_faults
     used = ~levels.rows(wrong.observed, odd)
     assert (~used).sum() == hit.sum()
     omega, t = exports.omega[hit], exports.temperature[hit]
@@ -160,33 +76,6 @@ def test_the_law_is_nearer_to_the_mix_without_an_odd_isotherm(exports):
         for found, rows in ((right, every), (wrong, used), (wrong, every))
     )
     assert np.abs(np.log(without / law)).max() < 0.02 < 0.05 < np.abs(np.log(spoiled / law)).min()
-
-
-@pytest.mark.parametrize("kelvin", [3.0, -4.0])
-def test_an_odd_modulus_and_phase_that_one_temperature_explains_say_which(exports, kelvin):
-    found = diagnose(exports, draws=FEW)
-    law = law_of_mix(mixture(found, np.ones(found.observed.size, bool))).law
-    hit = (exports.specimen == 1) & (exports.isotherm == 20)
-    omega, t = exports.omega, exports.temperature
-    change = law.complex_modulus(omega, t + kelvin * hit) / law.complex_modulus(omega, t)
-    observed = replace(exports, modulus=exports.modulus * change)
-    odd = levels.odd(observed), levels.odd_phases(observed)
-    (found,) = levels.odd_temperatures(observed, *odd)
-    assert (found["specimen"], found["temperature_C"]) == ("Mix-B", 20)
-    # The slope is that of the chord to the isotherms beside it, which is flatter than the curve: 11 and 14 % more.
-    assert found["kelvin"] == pytest.approx(1.125 * kelvin, rel=0.03)
-    (said,) = levels.temperature_notes([found])
-    side = "warmer" if kelvin > 0.0 else "colder"
-    assert said.startswith(f"at 20 degC specimen Mix-B seems {abs(found['kelvin']):.2g} K {side} than stated")
-
-
-@pytest.mark.parametrize("share,told", [(-1.0, False), (0.4, False), (0.6, True), (1.9, True), (2.1, False)])
-def test_temperatures_that_differ_more_than_twofold_are_not_one(monkeypatch, share, told):
-    monkeypatch.setattr(levels, "_isotherm_slopes", lambda *_: (-0.1, 2.0))
-    place = {"specimen": "A", "temperature_C": 20.0}
-    by_modulus, by_phase = place | {"factor": np.exp(-0.1 * share)}, place | {"phase_deg": 2.0}
-    found = levels.odd_temperatures(None, [by_modulus], [by_phase])
-    assert [one["kelvin"] for one in found] == pytest.approx([0.5 * (share + 1.0)] * told)
 
 
 @pytest.mark.parametrize(

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 File = click.Path(path_type=Path)
 
@@ -107,36 +112,59 @@ def machines(number: int, folder: Path) -> None:
 
 
 @main.command()
-@click.option("--folder", required=True, type=File)
-def nonlinear(folder: Path) -> None:
-    """What is said of mixes that are not linear, and of true offsets of the phase."""
-    import pandas as pd
+@click.argument("kind", type=click.Choice(["nonlinear", "limits", "careful"]))
+@click.argument("part", type=int)
+@click.argument("parts", type=int)
+@click.option("--output", required=True, type=File)
+def some(kind: str, part: int, parts: int, output: Path) -> None:
+    """Part number PART of PARTS of a trial: mixes not linear, limits of usual campaigns, or careful laboratories."""
+    from asphalt_nscd.files.store import write_table
 
+    from . import not_linear, power
+
+    made = {"nonlinear": not_linear.cases, "limits": power.limits, "careful": power.cases}[kind]
+    write_table(output, made(part, parts))
+
+
+@main.command()
+@click.argument("parts", nargs=-1, required=True, type=File)
+@click.option("--folder", required=True, type=File)
+def nonlinear(parts: tuple[Path, ...], folder: Path) -> None:
+    """What is said of mixes that are not linear, and of true offsets of the phase."""
     from asphalt_nscd.files.store import write_table
 
     from . import not_linear
 
-    rows = pd.DataFrame([not_linear.tried(*each) for each in not_linear.tables()])
+    rows = _together(parts)
     write_table(folder / "nonlinear.csv", rows)
     write_table(folder / "nonlinear_summary.csv", not_linear.summary(rows))
 
 
 @main.command()
+@click.argument("parts", nargs=-1, required=True, type=File)
 @click.option("--folder", required=True, type=File)
-def power(folder: Path) -> None:
-    """Sizes that are named in half and in 19 of 20 tables of usual campaigns; two faults of a careful laboratory."""
-    import pandas as pd
+def power(parts: tuple[Path, ...], folder: Path) -> None:
+    """Sizes that are named in half and in 19 of 20 tables of usual campaigns; two faults of a careful laboratory.
 
+    PARTS are those of limits and of careful laboratories.
+    """
     from asphalt_nscd.files.store import write_table
 
     from . import power
 
-    stated = power.limits()
-    rows = pd.DataFrame([row for number in range(power.TABLES) for row in power.tried(number)])
+    stated, rows = (
+        _together([path for path in parts if path.name.startswith(kind)]) for kind in ("limits", "careful")
+    )
     write_table(folder / "power_limits.csv", stated)
     write_table(folder / "power.csv", power.sizes(stated))
     write_table(folder / "power_cases.csv", rows)
     write_table(folder / "power_summary.csv", power.summary(rows))
+
+
+def _together(parts: Sequence[Path]) -> pd.DataFrame:
+    import pandas as pd
+
+    return pd.concat([pd.read_csv(path) for path in parts], ignore_index=True)
 
 
 if __name__ == "__main__":

@@ -111,7 +111,7 @@ def told(fault: Fault, campaign: Campaign, content: Content, answer: str) -> boo
         word in spoken for word in ("identical", "same digits", "copied")
     ):
         return True
-    if fault.kind in ("aliasing", "wrong top frequency") and "highest_frequency" in content:
+    if fault.kind in ("aliasing", "wrong top frequency") and content.get("highest_frequency") is not None:
         return True
     hit = [any(_test(one, test) for one in flagged) for test in campaign.tests[rows].itertuples()]
     whole = fault.kind.startswith("exchanged") and _both_odd(fault, content)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -157,6 +158,11 @@ def tried(campaign: Campaign, table: pd.DataFrame, form: str, size: float) -> di
         "turned_deg": float((corrected["phase_deg"] - corrected["recorded_phase_deg"]).abs().max()),
         "offset_told": "phase_offset" in told,
     }  # fmt: skip
+
+
+def cases(part: int = 0, parts: int = 1) -> pd.DataFrame:
+    """Those of the tables of a part."""
+    return pd.DataFrame([tried(*each) for each in islice(tables(), part, None, parts)])
 
 
 def summary(rows: pd.DataFrame) -> pd.DataFrame:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Iterator, Mapping
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
@@ -77,10 +78,10 @@ def _content(campaign: Campaign, faults: tuple[Fault, ...]) -> Mapping[str, Any]
         return an.diagnose(path, measured_in=campaign.bench).content
 
 
-def limits() -> pd.DataFrame:
-    """The limit that each table states of each cause, in its unit; the median of its places."""
+def limits(part: int = 0, parts: int = 1) -> pd.DataFrame:
+    """The limit that each table of a part states of each cause, in its unit; the median of its places."""
     rows = []
-    for name, laboratory, campaign in campaigns():
+    for name, laboratory, campaign in islice(campaigns(), part, None, parts):
         stated = _content(campaign, ())["detection_limits"]
         for cause in CAUSES:
             places = stated.get(cause, {}).get("places", {"": stated.get(cause, {}).get("value", np.inf)})
@@ -153,13 +154,18 @@ def tried(number: int) -> list[dict[str, Any]]:
     return rows
 
 
+def cases(part: int = 0, parts: int = 1) -> pd.DataFrame:
+    """Those of the very careful tables of a part."""
+    return pd.DataFrame([row for number in range(part, TABLES, parts) for row in tried(number)])
+
+
 def summary(rows: pd.DataFrame) -> pd.DataFrame:
     """Rates of very careful laboratories."""
-    empty = rows["fault"] == "nothing"
+    empty, told = rows["fault"] == "nothing", rows["names"].fillna("") != ""
     return pd.DataFrame(
         [
             line("an isotherm 1.2 K off, or a clamp of 3 per TPa: named", ">= 95 %",
                  rows.loc[~empty, "named"], low=0.95),
-            line("the same tables without a fault: a name", "none", rows.loc[empty, "names"] != "", high=0.0),
+            line("the same tables without a fault: a name", "none", told[empty], high=0.0),
         ]
     )  # fmt: skip

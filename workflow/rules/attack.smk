@@ -10,8 +10,9 @@ ATTACK_COMMAND = (
     f"env PYTHONPATH={CLONE / 'trials'}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m attack"
 )
 ATTACK_CODE = sorted(os.path.relpath(path) for path in (CLONE / "trials/attack").glob("*.py"))
-ATTACK_PARTS = 16  # jobs, each with every sixteenth campaign: all kinds in each
+ATTACK_PARTS = 48  # jobs, each with every 48th campaign: an interrupt costs the minutes of one at most
 ATTACK_TABLES = "cases names by_fault coverage reliability before summary".split()
+SOME_PARTS = 8  # jobs of each trial of a hundred tables or so
 MACHINES = 32  # of five campaigns each
 BEFORE = "results/published/attack/before.csv"
 
@@ -56,21 +57,41 @@ rule attack_tables:
         ATTACK_COMMAND + " tables {input.lines} {params.before} --folder results/attack > {log} 2>&1"
 
 
-# Subcommand: what it does, its option, its tables.
-for name, (told, more, tables) in {
+rule attack_some:
+    """Some tables of a trial: a minute of one core."""
+    input:
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=ATTACK_CODE,
+    output:
+        "results/attack/some/{kind}-{part}.csv",
+    log:
+        "results/attack/logs/some/{kind}-{part}.log",
+    params:
+        parts=SOME_PARTS,
+    message:
+        "Try some tables: {wildcards.kind}, part {wildcards.part}"
+    shell:
+        ATTACK_COMMAND + " some {wildcards.kind} {wildcards.part} {params.parts} --output {output} > {log} 2>&1"
+
+
+# Subcommand: what it does, its option, the trials that it puts together, its tables.
+for name, (told, more, kinds, tables) in {
     "machines": (  # and what NCAT's campaigns share: six minutes of one core
         "Look for an offset that no campaign of a machine shows alone",
         MACHINES,
+        [],
         ("machines", "machines_summary", "machine_measured"),
     ),
-    "nonlinear": (  # six minutes of one core
+    "nonlinear": (
         "Tell mixes that are not linear where they are soft from true offsets of the phase",
         "",
+        ["nonlinear"],
         ("nonlinear", "nonlinear_summary"),
     ),
-    "power": (  # ten minutes of one core
+    "power": (
         "Say how small a fault is named in usual campaigns, and of a careful laboratory",
         "",
+        ["limits", "careful"],
         ("power", "power_limits", "power_cases", "power_summary"),
     ),
 }.items():
@@ -79,6 +100,7 @@ for name, (told, more, tables) in {
         name:
             f"attack_{name}"
         input:
+            parts=expand("results/attack/some/{kind}-{part}.csv", kind=kinds, part=range(SOME_PARTS)),
             code=code("diagnose", *modules_of("diagnosis.causes")),
             generator=ATTACK_CODE,
         output:
@@ -90,7 +112,7 @@ for name, (told, more, tables) in {
         message:
             told
         shell:
-            ATTACK_COMMAND + " {params.command} --folder results/attack > {log} 2>&1"
+            ATTACK_COMMAND + " {params.command} {input.parts} --folder results/attack > {log} 2>&1"
 
 
 rule attack_inside:

@@ -12,8 +12,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from asphalt_nscd.diagnosis.causes._cause import Expected
-
 # Probability by the model from which a cause is established, and from which it, or one that fits as well, is told as
 # possible.
 NAMED, POSSIBLE = 0.95, 0.5
@@ -56,16 +54,9 @@ HIDES = 1.0  # the same, from which it may be the shape of a cause that has one
 NOTABLE = 3.0  # standard deviations from which the mean residual of a condition stands out
 
 
-# Faults of one place (`diagnosis.search.confined`), which are told and not named; the chance is that of all places.
-CONFINED = {
-    "offset of one specimen": Expected(0.1, 1.2),  # deg; each has gauges of its own
-    "delay of one specimen": Expected(0.03, 2.5e-4),  # s
-    "offset of one isotherm": Expected(0.03, 1.2),  # deg
-    "temperature of one specimen on one isotherm": Expected(0.15, 1.5),  # K; one of a hundred sweeps
-}
-AT_HIGHEST = 12.0  # of -2 ln likelihood, that an error of the highest frequency alone gains where it is told
-# Standard errors without a discrepancy of its place, from which a fault is estimated beside it: those told have 4.9.
-NEARLY_SURE = 4.0
+# Standard errors without a discrepancy of its place, from which a fault of one place is estimated beside it: those told
+# have 4.9; and from which any other cause is.
+NEARLY_SURE, WORTH_SIZING = 4.0, 2.5
 # Of -2 ln likelihood, that a discrepancy of its own gains at an isotherm that is torn from the others. In drawn tables:
 # 50 or more where gauges slip, at most 4 elsewhere.
 TORN = 25.0

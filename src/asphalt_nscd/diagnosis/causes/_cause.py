@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,22 @@ from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, 
 from asphalt_nscd.files.words import three_digits
 from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
-Place = str | float | None
-"""The specimen (name) or the isotherm [degC] a cause is confined to; None for the whole table."""
+
+class Sweep(NamedTuple):
+    """Tests of one specimen on one isotherm [degC]."""
+
+    specimen: str
+    isotherm: float
+
+
+class Setting(NamedTuple):
+    """All tests at one frequency [Hz]."""
+
+    frequency: float
+
+
+Place = str | float | Sweep | Setting | None
+"""The specimen (name), isotherm [degC], sweep or frequency a cause is confined to; None for the whole table."""
 
 # In the order in which a signal passes them. One of CHANNEL has one parameter and no place: it is fitted before the
 # errors of the laboratory are sized (`model.laboratory`), and beside every large discrepancy
@@ -70,6 +84,8 @@ class Cause(ABC):
     followed: whether a law fitted without it follows it, so that only a fit with it decides.
     alters_tests: whether what it does is taken off the tests once it is established; what a mix does itself is not.
     family: what causes have in common that these tests may not tell apart: each is tried in the place of the others.
+    told: whether it is told with its place and size, and gets no rung: what nobody mends in the tests afterwards.
+    part_of: the cause of all tests that leaves it no place once it is in the fit.
     """
 
     name: ClassVar[str]
@@ -89,6 +105,8 @@ class Cause(ABC):
     followed: ClassVar[bool] = False
     alters_tests: ClassVar[bool] = True
     family: ClassVar[str] = ""
+    told: ClassVar[bool] = False
+    part_of: ClassVar[str] = ""
 
     @property
     def one_sided(self) -> bool:
@@ -123,6 +141,11 @@ class Cause(ABC):
             return np.ones(observed.size, bool)
         if isinstance(place, str):
             return observed.specimen == observed.names.index(place)
+        if isinstance(place, Sweep):
+            of_specimen = observed.specimen == observed.names.index(place.specimen)
+            return of_specimen & (observed.isotherm == place.isotherm)
+        if isinstance(place, Setting):
+            return observed.frequency == place.frequency
         # Exactly: places are isotherms of the same table.
         return observed.isotherm == place
 

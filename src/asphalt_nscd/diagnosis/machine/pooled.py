@@ -20,11 +20,11 @@ from asphalt_nscd.diagnosis import criteria
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import HEAD, Cause
 from asphalt_nscd.diagnosis.machine.common_faults import Common, Part, Pooled
-from asphalt_nscd.diagnosis.model import chance, fit_beside, likelihood
+from asphalt_nscd.diagnosis.model import chance, fit_beside, laboratory, likelihood
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observed.observations import Observations, Vector
-from asphalt_nscd.diagnosis.search import limits_beside, with_discrepancy
+from asphalt_nscd.diagnosis.search import limits, one_search
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.search.ladder import spread_of
 from asphalt_nscd.diagnosis.settings import Draws
@@ -65,7 +65,7 @@ class _Campaign:
         believe each of them less.
         """
         state = self.refit_campaign(causes, amplitudes).state
-        estimates = limits_beside.estimates(state, with_discrepancy.survey(state, OF_TESTS))
+        estimates = limits.estimates(state, one_search.survey(state, OF_TESTS))
         named = {one.cause.name for one in state.fitted.active} | MACHINE
         return replace(self, spread=widening(spread_of(estimates, named)))
 
@@ -144,7 +144,7 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
     base = ladder.joint.base
     if not isinstance(base, FlexibleSpectrum) or diagnosis.observed.isotherms.size < 2:
         return None
-    plain = Joint(diagnosis.observed, base, diagnosis.noise)
+    plain = laboratory.alone(Joint(diagnosis.observed, base, diagnosis.alone))
     own = tuple(one for one in ladder.fitted.active if not is_machine_cause(one.cause))
     fitted = plain.fit(ladder.fitted.law, ladder.fitted.scales, own)
     spread = spread_of(ladder.estimates, MACHINE | {rung.candidate.cause.name for rung in ladder.rungs})

@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.model import discrepancy, likelihood
+from asphalt_nscd.diagnosis.causes._cause import Place, Setting
+from asphalt_nscd.diagnosis.model import discrepancy, laboratory, likelihood
 from asphalt_nscd.diagnosis.model.discrepancy import Processes
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate, Reduced
@@ -25,7 +26,7 @@ CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy 
 class State:
     """A fit of law and causes beside the discrepancy, and the model linearised there.
 
-    The noise of `plain` is the scatter alone, that of `wide` has the discrepancy too; `fitted` is under wide, `linear`
+    The noise of `plain` is the scatter alone, that of `wide` has all processes too; `fitted` is under wide, `linear`
     under plain at the same parameters; `model` is reduced to the processes, of `variances` (m,).
     """
 
@@ -35,6 +36,18 @@ class State:
     linear: Fitted
     model: Reduced
     variances: Vector
+
+    @property
+    def hidden(self) -> Vector:
+        """Variances (m,) of the discrepancy, zero of what a laboratory adds to any table."""
+        return np.where(laboratory.of_laboratory(self.model.processes), 0.0, self.variances)
+
+    @property
+    def everyday(self) -> Joint:
+        """The model whose noise holds what the laboratory adds, and no discrepancy."""
+        if self.plain.observed.isotherms.size < 2:
+            return self.plain
+        return laboratory.inferred(self.model.processes, self.variances).beside(self.plain, self.fitted)
 
     @property
     def misfit(self) -> float:
@@ -50,13 +63,15 @@ class State:
 
 
 def begin(plain: Joint, fitted: Fitted) -> State:
-    """Fit law and discrepancy with the causes of the fit, mostly none; the noise of `plain` is the scatter alone."""
-    found = discrepancy.processes(plain, fitted)
-    likeliest_there = likelihood.estimate(likelihood.reduce(found, fitted)).variances
-    # A discrepancy takes up what a rough law does not follow, and keeps it: from either side.
-    starts = likeliest_there, np.full_like(likeliest_there, discrepancy.LEAST)
-    begun = [smoothed(settle(plain, found, fitted, fitted.active, start)) for start in starts]
-    return min(begun, key=lambda state: state.misfit)
+    """Fit law, discrepancy and laboratory with the causes of the fit, mostly none, from where its law stands."""
+    return smoothed(_anew(plain, plain.linearise(fitted.law, fitted.scales, fitted.active)))
+
+
+def _anew(plain: Joint, linear: Fitted) -> State:
+    """From usual sizes of all processes, which are those of this law."""
+    found = laboratory.processes(plain, linear)
+    start = likelihood.estimate(likelihood.reduce(found, linear)).variances
+    return settle(plain, found, linear, linear.active, start)
 
 
 def refit_causes(state: State, active: tuple[Candidate, ...]) -> State:
@@ -80,22 +95,38 @@ def settle(
     return State(plain, wide, fitted, linear, model, variances)
 
 
-def likeliest(model: Reduced, variances: Vector, cause: Direction | None = None) -> Estimate:
+def likeliest(
+    model: Reduced, variances: Vector, cause: Direction | None = None, place: Place = None
+) -> Estimate:
     """The likeliest of several answers: of the least misfit."""
-    return min(answers(model, variances, cause), key=lambda estimate: estimate.misfit)
+    return min(answers(model, variances, cause, place), key=lambda estimate: estimate.misfit)
 
 
-def answers(model: Reduced, variances: Vector, cause: Direction | None = None) -> Iterator[Estimate]:
-    """Estimates from several starts, the quickest first; `variances` (m,) is one of the starts.
+def answers(
+    model: Reduced, variances: Vector, cause: Direction | None = None, place: Place = None
+) -> Iterator[Estimate]:
+    """Estimates from several starts; `variances` (m,) is one of them, without what may be the doing of the cause.
 
     Which of three specimens is odd, or a phase that is off at every frequency for a modulus that is, may be told in two
     ways, and one start finds one of them.
     """
-    uncommon = np.where(
-        [one.kind == "all" for one in model.processes.described], discrepancy.LEAST, variances
-    )
-    for start in (variances, uncommon, None):
-        yield likelihood.estimate(model, cause, start)
+    described = model.processes.described
+    if cause is None:
+        uncommon = np.where([one.kind == "all" for one in described], discrepancy.LEAST, variances)
+        yield likelihood.estimate(model, None, variances)
+        yield likelihood.estimate(model, None, uncommon)
+    yield likelihood.estimate(model, cause, lean(model.processes, variances, place))
+    yield likelihood.estimate(model, cause, None)
+
+
+def lean(found: Processes, variances: Vector, place: Place = None) -> Vector:
+    """Variances (m,) without what a cause at a place has enlarged: the laboratory's, and the discrepancy there."""
+    usual = np.minimum(variances, found.usual**2)
+    at = set(place) if isinstance(place, tuple) else {place} - {None}
+    there = np.array([bool(at & {one.specimen, one.isotherm}) for one in found.described])
+    # One frequency off in all tests looks like what all isotherms have in common.
+    there |= isinstance(place, Setting) & np.array([one.kind == "all" for one in found.described])
+    return np.where(there, discrepancy.LEAST, np.where(laboratory.of_laboratory(found), usual, variances))
 
 
 def smoothed(state: State) -> State:
@@ -114,10 +145,7 @@ def afresh(state: State, active: tuple[Candidate, ...]) -> State:
     """Fit law and causes before there is a discrepancy, which else keeps what it took up without them."""
     laws = [state.fitted.law, *first_laws(state.plain)]
     fits = [state.plain.fit(law, state.fitted.scales, active, CONVERGED) for law in laws]
-    fitted = min(fits, key=lambda one: one.objective)
-    found = discrepancy.processes(state.plain, fitted)
-    start = likelihood.estimate(likelihood.reduce(found, fitted)).variances
-    return settle(state.plain, found, fitted, fitted.active, start)
+    return _anew(state.plain, min(fits, key=lambda one: one.objective))
 
 
 def taken_amplitude(

@@ -3,7 +3,8 @@
 An isotherm is held to some tenths of a kelvin, each specimen on it too. Each specimen has relaxation times and each
 mounting a level and a phase of its own. None of that is a fault, and without it every table holds one: of 80 drawn
 tables that have nothing else, 28 were given a name. The sizes are inferred from the table by restricted likelihood,
-beside the discrepancy; few isotherms and specimens say little of them, so that each has a prior with a source.
+beside the discrepancy and with the cause that is tried in the model; few isotherms and specimens say little of them, so
+that each has a prior with a source.
 """
 
 from __future__ import annotations
@@ -13,22 +14,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.causes._cause import CHANNEL
 from asphalt_nscd.diagnosis.criteria import LABORATORY
-from asphalt_nscd.diagnosis.model import discrepancy, likelihood, start
-from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
+from asphalt_nscd.diagnosis.model import discrepancy
 from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
-from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint, Vector
-from asphalt_nscd.diagnosis.model.likelihood import Reduced
+from asphalt_nscd.diagnosis.model.joint import Fitted, Joint, Vector
 
 STEP = 0.05  # K or of ln time, of a derivative
-OF_FEW = (
-    "isotherm temperature",
-    "specimen times",
-)  # of which a table holds so few that one at fault enlarges them
-FEW = 2
-CLOSE = 0.01  # change of the objective at which a fit of the law ends that sizes are estimated beside
 
 
 @dataclass(frozen=True)
@@ -50,74 +41,49 @@ class Laboratory:
         return Joint(joint.observed, joint.base, noise)
 
 
-def processes(joint: Joint, fitted: Fitted) -> tuple[Processes, tuple[str, ...]]:
-    """Processes of the discrepancy, then of what the laboratory adds in its usual sizes, and names of the latter."""
+def processes(joint: Joint, fitted: Fitted) -> Processes:
+    """Processes of the discrepancy, then of what the laboratory adds in its usual sizes, of several isotherms."""
+    beside = discrepancy.processes(joint, fitted)
+    # On one isotherm a mounting is the level of its specimen, and a temperature belongs to the law.
+    if joint.observed.isotherms.size < 2:
+        return beside
     own = {
         kind: LABORATORY[kind].size * root for kind, root in _roots(joint, fitted, joint.noise.block).items()
     }
-    beside = discrepancy.processes(joint, fitted)
-    found = Processes(
+    ranks = [root.shape[1] for root in own.values()]
+    return Processes(
         (*beside.described, *(Process(kind, "both") for kind in own)),
         (*beside.roots, *own.values()),
         np.hstack([beside.factor, *(joint.noise.whiten(root) for root in own.values())]),
-        np.concatenate(
-            [
-                beside.block,
-                np.repeat(len(beside.roots) + np.arange(len(own)), [r.shape[1] for r in own.values()]),
-            ]
-        ),
+        np.concatenate([beside.block, np.repeat(len(beside.roots) + np.arange(len(own)), ranks)]),
         np.concatenate([beside.usual, np.ones(len(own))]),
         np.concatenate([beside.spread, [LABORATORY[kind].spread for kind in own]]),
     )
-    return found, tuple(own)
 
 
-def estimate(joint: Joint, fitted: Fitted) -> Laboratory:
-    """Sizes of the laboratory's effects beside the discrepancy; the noise is the scatter of single tests."""
-    found, kinds = processes(joint, fitted)
-    model = likelihood.reduce(found, fitted)
-    whole = likelihood.estimate(model).variances
-    first = whole.size - len(kinds)
+def of_laboratory(found: Processes) -> NDArray[np.bool_]:
+    """Which of the processes (m,) a laboratory adds to any table."""
+    return np.array([one.kind in LABORATORY for one in found.described])
+
+
+def inferred(found: Processes, variances: Vector) -> Laboratory:
+    """The sizes of a laboratory by the variances (m,) of the processes."""
     return Laboratory(
         {
-            kind: LABORATORY[kind].size * float(np.sqrt(_without_one(model, fitted, whole, first + k, kind)))
-            for k, kind in enumerate(kinds)
+            one.kind: LABORATORY[one.kind].size * float(np.sqrt(variance))
+            for one, variance in zip(found.described, variances, strict=True)
+            if one.kind in LABORATORY
         }
     )
 
 
-def _without_one(model: Reduced, fitted: Fitted, whole: Vector, k: int, kind: str) -> float:
-    """Variance of an effect; the least with one isotherm or specimen free, which may be at fault, of more than FEW."""
-    columns = np.flatnonzero(model.processes.block == k)
-    if kind not in OF_FEW or columns.size <= FEW:
-        return float(whole[k])
-    free = likelihood.directions(model, fitted, model.processes.factor[:, columns])
-    each = (likelihood.estimate(model, free.column(at)).variances for at in range(columns.size))
-    return min(float(variances[k]) for variances in each)
-
-
 def alone(joint: Joint) -> Joint:
-    """The model whose noise is the scatter of single tests."""
+    """The model whose noise is the scatter of single tests, beside which a laboratory's errors can be sized."""
+    if joint.observed.isotherms.size < 2:
+        return joint
     # What a block shares is its mounting's: it is not counted twice.
     noise = replace(joint.noise, shared=np.zeros_like(joint.noise.shared), discrepancy=None)
     return Joint(joint.observed, joint.base, noise)
-
-
-def add_laboratory(joint: Joint, fitted: Fitted) -> tuple[Joint, Laboratory | None]:
-    """The model with what the laboratory adds to the scatter, and that; unchanged, and None, with one isotherm."""
-    # On one isotherm a mounting is the level of its specimen, and a temperature belongs to the law.
-    if not isinstance(joint.base, FlexibleSpectrum) or joint.observed.isotherms.size < 2:
-        return joint, None
-    # An error that the phases of all tests share is no sum of mountings. Beside a law that bends to it, they would seem
-    # several times as large.
-    shared = tuple(Candidate(cause, None, (0.0,)) for cause in CATALOGUE if cause.stage == CHANNEL)
-    free, beside = start.fit_spectrum(joint.observed, joint.noise, (*fitted.active, *shared))
-    held = alone(free)
-    found = estimate(held, held.linearise(beside.law, beside.scales, beside.active))
-    # A law that was fitted without them has bent to the temperatures: fitted beside them, it leaves them to the tests.
-    straight = found.beside(held, beside).fit(beside.law, beside.scales, beside.active, CLOSE)
-    found = estimate(held, held.linearise(straight.law, straight.scales, straight.active))
-    return found.beside(alone(joint), fitted), found
 
 
 def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, NDArray[np.complex128]]:

@@ -22,7 +22,6 @@ from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Linear, Tes
 from asphalt_nscd.diagnosis.next_tests.sweeps import HALF, Costs, Sweep, half_strain_rows
 from asphalt_nscd.diagnosis.observed.copies import copied
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
-from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 
 Columns = Sequence[tuple[Process, slice]]  # of the nuisance, those of each process
@@ -35,7 +34,7 @@ class Departure:
 
     `kind`: "linear", what changes at half the strain at an isotherm if the departure is proportional to the strain;
     "repeat", a test that cannot be used (`copied`: because it or another is a copy); "level", an isotherm or specimen
-    that is odd (`odd`: the entry of `levels.odd` or `odd_phases`). `isotherm` in degC, `frequency` in Hz; None where it
+    that is odd (`odd`: the entry of diagnosis.json). `isotherm` in degC, `frequency` in Hz; None where it
     is everywhere.
     """
 
@@ -135,9 +134,7 @@ def _repeats(
 
 def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:
     """Isotherms and specimens that are odd."""
-    done = diagnosis.whole or diagnosis.observed
-    phases, _ = levels.merge_confined(levels.odd_phases(done), [], diagnosis.ladder.confined_faults)
-    return [*levels.odd(done), *phases]
+    return [one for one in diagnosis.ladder.confined_faults if "factor" in one or "phase_deg" in one]
 
 
 def _again(diagnosis: Diagnosis, table: Observations, linear: Linear, one: Mapping[str, Any]) -> Departure:

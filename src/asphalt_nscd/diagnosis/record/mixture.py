@@ -118,7 +118,9 @@ def _of_kept(one: Hypothesis, kept: NDArray[np.bool_]) -> Hypothesis:
         return one
     every = one.joint
     joint = Joint(every.observed.subset(kept), every.base, every.noise.subset(kept))
-    active = tuple(cause for cause in one.causes if cause.cause.rows(joint.observed, cause.place).any())
+    active = tuple(
+        cause for cause in one.fitted.active if cause.cause.rows(joint.observed, cause.place).any()
+    )
     return replace(one, joint=joint, fitted=joint.fit(one.fitted.law, one.fitted.scales, active, CLOSE))
 
 

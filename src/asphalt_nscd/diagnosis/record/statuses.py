@@ -46,10 +46,10 @@ class Places:
 def odd_places(diagnosis: Diagnosis, whole: Observations) -> Places:
     """Isotherms, sweeps and specimens that are odd, of a diagnosis of `whole`."""
     ladder = diagnosis.ladder
-    moduli, own = levels.odd(whole), ladder.confined_faults
-    phases = levels.odd_phases(whole)
-    temperatures = levels.odd_temperatures(whole, moduli, phases)
-    phases, temperatures = levels.merge_confined(phases, temperatures, own)
+    own = ladder.confined_faults
+    moduli, phases, temperatures = (
+        [one for one in own if key in one] for key in ("factor", "phase_deg", "kelvin")
+    )
     contradictory: Entries = []
     for one in suspects.broken_isotherms(whole, diagnosis.left_out, ladder.torn):
         worst = int(np.argmax(np.abs(one.difference)))

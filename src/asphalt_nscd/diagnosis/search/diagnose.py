@@ -9,23 +9,23 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import chdtrc, fdtrc
 
-from asphalt_nscd.diagnosis.causes import CATALOGUE
+from asphalt_nscd.diagnosis.causes import EVERY
 from asphalt_nscd.diagnosis.causes._cause import Cause
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP, CONFIDENCE, LEAST_ISOTHERMS, MIXES_TURN, NAMED
-from asphalt_nscd.diagnosis.model import chance, start
+from asphalt_nscd.diagnosis.model import chance, fit_beside, laboratory, start
 from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.joint import Fitted, Joint
-from asphalt_nscd.diagnosis.model.laboratory import Laboratory, add_laboratory
+from asphalt_nscd.diagnosis.model.laboratory import Laboratory
 from asphalt_nscd.diagnosis.model.probability import stated
 from asphalt_nscd.diagnosis.observed import copies, scatter
 from asphalt_nscd.diagnosis.observed.noise import Noise
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.screening import causality, excess_phase, suspects, within_isotherm
+from asphalt_nscd.diagnosis.screening import excess_phase, suspects, within_isotherm
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.screening.within_isotherm import LooPrediction
 from asphalt_nscd.diagnosis.search.doubts import Key
 from asphalt_nscd.diagnosis.search.hypotheses import Hypothesis, hypotheses
-from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung, climb
+from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung, climb, without_law
 from asphalt_nscd.diagnosis.settings import Draws
 from asphalt_nscd.diagnosis.written import shown
 from asphalt_nscd.measurements.reduction import require_enough
@@ -113,7 +113,7 @@ class Diagnosis:
 def diagnose(
     observed: Observations,
     scatter_stated: tuple[float, float] | None = None,
-    catalogue: tuple[Cause, ...] = CATALOGUE,
+    catalogue: tuple[Cause, ...] = EVERY,
     draws: int = Draws.number,
     seed: int = 0,
     use_suspects: bool = False,
@@ -144,27 +144,27 @@ def diagnose(
     above = excess_phase.shows_excess(observed, alone)
     catalogue = tuple(cause for cause in catalogue if cause.alters_tests or above)
     joint, fitted = start.fit_spectrum(observed, noise)
-    wide, laboratory = add_laboratory(joint, fitted)
-    if laboratory is not None:
-        noise = wide.noise
-        joint, fitted = start.fit_roughness(wide, fitted)
+    begun = fit_beside.begin(laboratory.alone(joint), fitted)
+    noise = begun.everyday.noise
     # A law that cannot follow the tests leaves them to temperatures and mountings if it may.
     baseline_joint, baseline = start.fit_burgers_at_each(observed, alone)
     baseline_p = misfit_p_value(baseline, alone)
+    joint, fitted = start.fit_roughness(begun.everyday, begun.fitted)
     spectrum_p = misfit_p_value(fitted, noise)
     # Neither law holds the other as a special case, so Schwarz's criterion decides and no F test.
     spectrum_better = _information(fitted) < _information(baseline)
     no_common_law = baseline_p > ALPHA_PER_STEP and not spectrum_better and spectrum_p < ALPHA_PER_STEP
-    common = joint, fitted
+    if observed.frequencies.size < 3:
+        notes.append("Two frequencies: Burgers laws fit them exactly, so their misfit cannot be judged.")
     if no_common_law:
-        joint, fitted = baseline_joint, baseline
         notes.append(
             "The Burgers laws fit and no law common to all temperatures does: no cause is sought. What is reported of "
             "the mix follows a common law all the same, and is less certain than it says."
         )
-    if observed.frequencies.size < 3:
-        notes.append("Two frequencies: Burgers laws fit them exactly, so their misfit cannot be judged.")
-    ladder = climb(joint, fitted, catalogue, draws, seed)
+        ladder = without_law(baseline_joint, baseline, draws, seed)
+    else:
+        ladder = climb(begun, catalogue, draws, seed)
+        noise = (ladder.end or begun).everyday.noise
     law_p = misfit_p_value(_nearest_fit(ladder, noise), noise)
     diagnosis = Diagnosis(
         observed,
@@ -176,14 +176,16 @@ def diagnose(
         baseline_joint,
         baseline_p,
         law_p,
-        joint is not baseline_joint and baseline_p <= ALPHA_PER_STEP and spectrum_better,
+        not no_common_law and baseline_p <= ALPHA_PER_STEP and spectrum_better,
         ladder,
         left_out,
         notes=notes,
     )
     diagnosis.whole, diagnosis.suspects = whole, tuple(doubtful)
-    diagnosis.laboratory = laboratory
-    diagnosis.common = common if no_common_law else None
+    if observed.isotherms.size > 1:
+        last = ladder.end or begun
+        diagnosis.laboratory = laboratory.inferred(last.model.processes, last.variances)
+    diagnosis.common = (joint, fitted) if no_common_law else None
     diagnosis.verdict = _verdict(diagnosis)
     diagnosis.too_few = too_few = _too_few(diagnosis)
     if ladder.rungs and too_few:
@@ -197,10 +199,6 @@ def diagnose(
     if no_common_law and not ladder.rungs:
         diagnosis.verdict = "unexplained_structure"
     notes += _bound_notes(ladder)
-    if diagnosis.verdict == "unexplained_structure":
-        diagnosis.notes += causality.told(
-            causality.contradictions(observed, ladder.fitted, noise), bool(ladder.rungs)
-        )
     return diagnosis
 
 
@@ -278,7 +276,8 @@ def _noise(
     if noise is not None:
         # What one specimen may do as a whole, or the course of the tests, is no scatter: take causes and patterns out.
         joint, fitted = start.fit_spectrum(observed, noise)
-        candidates = [c for c in chance.catalogue_candidates(observed, catalogue) if isinstance(c.place, str)]
+        every = chance.catalogue_candidates(observed, catalogue)
+        candidates = [one for one in every if isinstance(one.place, str) and not one.cause.told]
         directions = chance.candidate_directions(joint, fitted, candidates)
         patterns = [p.direction[:, None] for p in chance.structures_of_replicates(observed)]
         refined = scatter.estimate(observed, np.hstack([membership, directions, *patterns]), scales)

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.criteria import ABSORBED, ENOUGH, MANY_ISOTHERMS, MOST_SPECIMENS, TWENTY_TIMES
 from asphalt_nscd.diagnosis.model import discrepancy, likelihood
-from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
+from asphalt_nscd.diagnosis.model.fit_beside import State
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate, Reduced
 from asphalt_nscd.diagnosis.observed.observations import Observations
@@ -30,26 +30,17 @@ FIRST = 0.05  # size at which the search for the size of a rival begins, in its 
 RIVAL = Process("rival", "both")
 
 
-def find_doubts(
-    plain: Joint, fitted: Fitted, named: Sequence[Candidate], sizes: Sequence[float] = ()
-) -> dict[Key, list[str]]:
-    """Why names may belong to an effect that the catalogue lacks: sentences by cause and place, for doubtful names.
-
-    `plain` has the scatter alone as its noise; `sizes` (m,) are those of the processes of a discrepancy in units of the
-    scatter, where one was fitted.
-    """
-    active = {candidate.key: candidate for candidate in fitted.active}
+def find_doubts(state: State, named: Sequence[Candidate]) -> dict[Key, list[str]]:
+    """Why names may belong to an effect that the catalogue lacks: sentences by cause and place, for doubtful names."""
+    active = {candidate.key: candidate for candidate in state.fitted.active}
     found: dict[Key, list[str]] = {}
-    if not named or not isinstance(plain.base, FlexibleSpectrum):
-        return found
-    table = Table(plain, fitted, sizes)
     for candidate in named:
         taken = active[candidate.key]
         own = [
-            *_size_doubts(taken, plain.observed),
-            *_shared_doubts(candidate, named, len(plain.observed.names)),
+            *_size_doubts(taken, state.plain.observed),
+            *_shared_doubts(candidate, named, len(state.plain.observed.names)),
+            *_rival_doubts(state, taken),
         ]
-        own += _rival_doubts(table, taken)
         # a cause that was found after a doubtful one was fitted beside it
         if not own and found:
             own = ["It was found after another cause that is itself not certain"]
@@ -75,67 +66,61 @@ def _shared_doubts(candidate: Candidate, named: Sequence[Candidate], specimens: 
         yield f"It is named at {same} isotherms: a shift with temperature that is not of WLF's form looks the same"
 
 
-class Table:
-    """The last fit of a table and its discrepancy; parameters as of `find_doubts`."""
-
-    def __init__(self, plain: Joint, fitted: Fitted, sizes: Sequence[float] = ()) -> None:
-        self.plain, self.linear = plain, plain.linearise(fitted.law, fitted.scales, fitted.active)
-        self.processes = discrepancy.processes(plain, self.linear)
-        none = np.zeros(len(self.processes.described))
-        self.variances = np.square(sizes) if len(sizes) else none
-
-    def drop_cause(self, candidate: Candidate) -> tuple[Fitted, NDArray, NDArray[np.complex128]]:
-        """The fit with a cause taken out, its whitened direction (2n, 1), and what it does to ln E* (n,)."""
-        linear = self.linear
-        number = [one.key for one in linear.active].index(candidate.key)
-        first = linear.place_of(candidate.key)
-        columns = range(first, first + len(candidate.values))
-        direction = linear.jacobian[:, [first]]
-        size = candidate.values[0] / candidate.typical[0]
-        rest, back = linear.fixed(columns), direction[:, 0] * size
-        out = replace(rest, residual=linear.residual + back, gradient=rest.gradient + rest.jacobian.T @ back)
-        effect = size * self.plain.direction(linear.law, linear.scales, linear.active, number, 0)
-        return out, direction, effect
-
-    def estimate_beside(self, rest: Fitted, direction: NDArray | None, roots: Sequence[NDArray]) -> Estimate:
-        """The cause estimated beside its discrepancy and further processes with these factors (n, rank).
-
-        direction: whitened (2n, 1), of the cause; None for the processes in its place.
-        """
-        found = self.processes
-        count = [*np.bincount(found.block), *(root.shape[1] for root in roots)]
-        factor = np.hstack([found.factor, *(self.plain.noise.whiten(root) for root in roots)])
-        every = Processes(
-            (*found.described, *(RIVAL for _ in roots)),
-            (*found.roots, *roots),
-            factor,
-            np.repeat(np.arange(len(count)), count),
-            np.array([*found.usual, *(1.0 for _ in roots)]),
-            np.concatenate([found.spread, np.full(len(roots), np.inf)]),
-        )
-        model: Reduced = likelihood.reduce(every, rest)
-        along: Direction | None = None if direction is None else likelihood.directions(model, rest, direction)
-        begin = np.concatenate([self.variances, np.full(len(roots), FIRST**2)])
-        # the likelihood of a variance may have two maxima, one of them at none: from either side
-        tried = [likelihood.estimate(model, along, start) for start in (begin, None)]
-        return min(tried, key=lambda one: one.misfit)
+def _drop_cause(state: State, candidate: Candidate) -> tuple[Fitted, NDArray, NDArray[np.complex128]]:
+    """The fit with a cause taken out, its whitened direction (2n, 1), and what it does to ln E* (n,)."""
+    linear = state.linear
+    number = [one.key for one in linear.active].index(candidate.key)
+    first = linear.place_of(candidate.key)
+    columns = range(first, first + len(candidate.values))
+    direction = linear.jacobian[:, [first]]
+    size = candidate.values[0] / candidate.typical[0]
+    rest, back = linear.fixed(columns), direction[:, 0] * size
+    out = replace(rest, residual=linear.residual + back, gradient=rest.gradient + rest.jacobian.T @ back)
+    effect = size * state.plain.direction(linear.law, linear.scales, linear.active, number, 0)
+    return out, direction, effect
 
 
-def _rival_doubts(table: Table, candidate: Candidate) -> Iterator[str]:
-    rest, direction, effect = table.drop_cause(candidate)
+def _estimate_beside(
+    state: State, rest: Fitted, direction: NDArray | None, roots: Sequence[NDArray]
+) -> Estimate:
+    """A cause estimated beside all processes and further ones with these factors (n, rank).
+
+    direction: whitened (2n, 1), of the cause; None for the processes in its place.
+    """
+    found, more = state.model.processes, len(roots)
+    ranks = [root.shape[1] for root in roots]
+    every = Processes(
+        (*found.described, *(RIVAL for _ in roots)),
+        (*found.roots, *roots),
+        np.hstack([found.factor, *(state.plain.noise.whiten(root) for root in roots)]),
+        np.concatenate([found.block, len(found.roots) + np.repeat(np.arange(more), ranks)]),
+        np.concatenate([found.usual, np.ones(more)]),
+        np.concatenate([found.spread, np.full(more, np.inf)]),
+    )
+    model: Reduced = likelihood.reduce(every, rest)
+    along: Direction | None = None if direction is None else likelihood.directions(model, rest, direction)
+    begin = np.concatenate([state.variances, np.full(more, FIRST**2)])
+    # the likelihood of a variance may have two maxima, one of them at none: from either side
+    tried = [likelihood.estimate(model, along, start) for start in (begin, None)]
+    return min(tried, key=lambda one: one.misfit)
+
+
+def _rival_doubts(state: State, candidate: Candidate) -> Iterator[str]:
+    rest, direction, effect = _drop_cause(state, candidate)
     if isinstance(candidate.place, float) and _followed(rest, direction):
         yield "A shift with temperature of unusual form looks the same"
-    alone = table.estimate_beside(rest, direction, ())
-    observed, sigma = table.plain.observed, table.plain.noise.sigma
-    smooth = [
-        table.estimate_beside(rest, direction, (sigma[0] * root, 1j * sigma[1] * root))
-        for root in _smooth(table.plain)
-    ]
+
+    def beside(along: NDArray | None, *roots: NDArray) -> Estimate:
+        return _estimate_beside(state, rest, along, roots)
+
+    alone = beside(direction)
+    observed, sigma = state.plain.observed, state.plain.noise.sigma
+    smooth = [beside(direction, sigma[0] * root, 1j * sigma[1] * root) for root in _smooth(observed)]
     least = min(abs(one.z) for one in (alone, *smooth))
     known = [
         words
-        for words, roots in _shaped(table.plain)
-        if table.estimate_beside(rest, None, roots).misfit < alone.misfit - TWENTY_TIMES
+        for words, roots in _shaped(state.plain)
+        if beside(None, *roots).misfit < alone.misfit - TWENTY_TIMES
     ]
     if known:
         alike = " or ".join(known)
@@ -152,7 +137,7 @@ def _rival_doubts(table: Table, candidate: Candidate) -> Iterator[str]:
         parts = effect[:, None] * (label[:, None] == np.unique(label))
         parts = parts[:, np.abs(parts).max(axis=0) > 0.0]
         # Only where smooth rivals leave it enough: else weak evidence has been told already.
-        if parts.shape[1] > 1 and abs(table.estimate_beside(rest, direction, (parts,)).z) < ENOUGH <= least:
+        if parts.shape[1] > 1 and abs(beside(direction, parts).z) < ENOUGH <= least:
             yield f"Its size may differ between {words}"
 
 
@@ -186,9 +171,8 @@ def _shaped(plain: Joint) -> Iterator[tuple[str, list[NDArray[np.complex128]]]]:
             )
 
 
-def _smooth(plain: Joint) -> Iterator[NDArray]:
+def _smooth(observed: Observations) -> Iterator[NDArray]:
     """Factors (n, rank) of a smooth effect over ln f, the same at all temperatures and changing with them."""
-    observed = plain.observed
     log_f = np.log(observed.frequency)[:, None] / discrepancy.LENGTH
 
     def along(apart: NDArray) -> NDArray:

@@ -26,8 +26,8 @@ class Hypothesis:
 
     @property
     def causes(self) -> tuple[Candidate, ...]:
-        """With their values."""
-        return self.fitted.active
+        """Those of the rungs, with their values."""
+        return tuple(one for one in self.fitted.active if not one.cause.told)
 
     def effect(self, every: Joint) -> Complex:
         """ln (n,) of what the causes do to E* in each test of `every`."""

@@ -1,4 +1,4 @@
 """A diagnosis in plain sentences; `brief` puts the answer together.
 
-Some are made where they are found: `screening.levels` and `causality`, `search.confined` and `doubts`, `next_tests`.
+Some are made where they are found: `screening.levels`, `search.told` and `doubts`, `next_tests`.
 """

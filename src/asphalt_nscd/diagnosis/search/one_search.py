@@ -1,8 +1,8 @@
-"""The ladder of a table that holds more than its law, its causes and its scatter.
+"""The one search: every cause at every place competes, by one likelihood, beside the discrepancy and the laboratory.
 
-Every cause is tested, sized and limited beside a discrepancy (`discrepancy`), whose size is estimated with
-that cause in the model. What one isotherm, one frequency or one specimen carries alone is no established
-cause: each is left out in turn.
+Every cause is tested, sized and limited beside a discrepancy (`discrepancy`) and what a laboratory adds (`laboratory`),
+whose sizes are estimated with that cause in the model. What one isotherm, one frequency or one specimen carries alone
+is no established cause: each is left out in turn.
 """
 
 from __future__ import annotations
@@ -23,15 +23,18 @@ from asphalt_nscd.diagnosis.criteria import (
     FOLLOWED,
     HIDES,
     MOST_CAUSES,
+    NEARLY_SURE,
     POSSIBLE,
     SURVIVES,
     TWENTY_TIMES,
+    WORTH_SIZING,
 )
-from asphalt_nscd.diagnosis.model import chance, likelihood
+from asphalt_nscd.diagnosis.model import chance, discrepancy, likelihood
 from asphalt_nscd.diagnosis.model.chance import Scores
 from asphalt_nscd.diagnosis.model.fit_beside import (
     State,
     afresh,
+    lean,
     likeliest,
     refit_causes,
     row_processes,
@@ -47,7 +50,6 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.files.words import specimen_named
 
 Vector = NDArray[np.float64]
-SEVERAL_STARTS = 300  # tests up to which the sizes of the discrepancy are sought from several starts
 REFITS = 4  # candidates that are refitted at each rung
 STARTS = 4  # of a cause with shapes of its own
 NEAR = 0.6  # share of what a name needs, above which a candidate is refitted
@@ -75,6 +77,17 @@ class Survey:
     estimates: list[Estimate]
     one_sided: NDArray[np.bool_]
 
+    def only(self, told: bool) -> Survey:
+        """Those that are told with their place, or those that get a rung."""
+        kept = [k for k, one in enumerate(self.candidates) if one.cause.told == told]
+        pointing = self.pointing
+        return Survey(
+            [self.candidates[k] for k in kept],
+            Direction(pointing.cross[:, kept], pointing.own[np.ix_(kept, kept)], pointing.along[kept]),
+            [self.estimates[k] for k in kept],
+            self.one_sided[kept],
+        )
+
 
 def climb(
     state: State, catalogue: Sequence[Cause], draws: int, random: np.random.Generator
@@ -82,7 +95,8 @@ def climb(
     """Causes that beat chance and a nameless discrepancy, in the order taken; the last state; all causes estimated."""
     taken: list[Found] = []
     surveyed = survey(state, catalogue)
-    while len(taken) < MOST_CAUSES:
+    # So many causes that get a rung, and so many faults of one place.
+    while all(sum(one.candidate.cause.told == told for one in taken) < MOST_CAUSES for told in (True, False)):
         one = _next(state, surveyed, draws, random)
         found = _both_of_the_channel(state, surveyed, draws, random) if one is None else [one]
         if not found:
@@ -111,41 +125,39 @@ def again(
 def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     """Candidates that the table can show, each estimated beside the discrepancy in this state."""
     candidates, pointing = _pointing(state, catalogue)
-    # In a large table the sizes are well determined, and each start takes a second.
-    several = state.plain.observed.size <= SEVERAL_STARTS
-    # A second process has 45 shapes: scores tell which four are worth an estimate beside the discrepancy.
-    scored = _scored(state, pointing)
-    promising = set(_promising(candidates, scored))
+    scored = list(_scored(state, pointing))
+    promising = set(_promising(state, candidates, pointing))
     estimates = [
-        scored[k]
-        if candidate.shaped and k not in promising
-        else likeliest(state.model, state.variances, pointing.column(k))
-        if several and not candidate.shaped
-        else likelihood.estimate(state.model, pointing.column(k), state.variances)
+        likeliest(state.model, state.variances, pointing.column(k), candidate.place)
+        if k in promising
+        else scored[k]
         for k, candidate in enumerate(candidates)
     ]
     one_sided = np.array([c.cause.one_sided for c in candidates], bool)
     return Survey(candidates, pointing, estimates, one_sided)
 
 
-def _scored(state: State, pointing: Direction) -> list[Estimate]:
-    """Each candidate beside a discrepancy of the sizes that it has without, which no gain is told of."""
+def _scored(state: State, pointing: Direction) -> Iterator[Estimate]:
+    """Each candidate beside processes of the sizes that they have without, which no gain is told of."""
     information, score = likelihood.weighed(state.model, pointing, state.variances)
     least = np.maximum(np.diag(information), 1e-12)
-    return [
-        Estimate(state.variances, np.inf, float(amplitude), float(error))
-        for amplitude, error in zip(score / least, least**-0.5, strict=True)
-    ]
+    for amplitude, error in zip(score / least, least**-0.5, strict=True):
+        yield Estimate(state.variances, np.inf, float(amplitude), float(error))
 
 
-def _promising(candidates: Sequence[Candidate], scored: Sequence[Estimate]) -> Iterator[int]:
-    """Of each cause with shapes of its own the STARTS that the table speaks for most."""
-    best = np.argsort([-one.z for one in scored], kind="stable")
+def _promising(state: State, candidates: Sequence[Candidate], pointing: Direction) -> Iterator[int]:
+    """Those worth an estimate: far from none where nothing of one place hides them; of shapes, the best STARTS."""
+    found = state.model.processes
+    of_one = [one.kind == "all" or (one.specimen or one.isotherm) is not None for one in found.described]
+    least = np.where(of_one, discrepancy.LEAST, lean(found, state.variances))
+    information, score = likelihood.weighed(state.model, pointing, least)
+    z = np.abs(score) / np.sqrt(np.maximum(np.diag(information), 1e-12))
     count: dict[tuple, int] = {}
-    for k in best.tolist():
+    for k in np.argsort(-z, kind="stable").tolist():
         key = candidates[k].key
         count[key] = count.get(key, 0) + 1
-        if candidates[k].shaped and count[key] <= STARTS:
+        far = z[k] > (NEARLY_SURE if candidates[k].cause.told else WORTH_SIZING)
+        if far and (count[key] <= STARTS or not candidates[k].shaped):
             yield k
 
 
@@ -158,10 +170,12 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     z = np.array([estimate.z for estimate in estimates])
     z = np.where(one_sided, np.maximum(z, 0.0), np.abs(z))
     gains = np.array([nothing.misfit - estimate.misfit for estimate in estimates])
-    by_chance = largest_by_chance(state, surveyed, draws, random)
+    by_chance = largest_by_chance(state, surveyed.only(told=False), draws, random)
+    # Places are many, and the chance of a fault is shared by all of its own.
+    named = float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP))
+    least = np.where([one.cause.told for one in candidates], NEARLY_SURE, named)
     # A law fitted without the cause has followed it: what comes near is refitted before it is judged.
-    least = float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP))
-    large = bool((state.variances > HIDES**2).any())
+    large = bool((state.hidden > HIDES**2).any())
     eligible = (z > NEAR * least) & (gains > NEAR * TWENTY_TIMES)
     shortlist: dict[tuple, list[int]] = {}
     for k in np.argsort(-np.where(eligible, gains, -np.inf)):
@@ -174,7 +188,9 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
         if candidates[k].cause.family in families:
             shortlist.setdefault(candidates[k].key, [int(k)])
     # A discrepancy sized without an error of all phases may have taken it up whole.
-    taken_up = {k for k, one in enumerate(candidates) if large and one.cause.stage == CHANNEL}
+    taken_up = {
+        k for k, one in enumerate(candidates) if large and one.cause.stage == CHANNEL and not one.cause.told
+    }
     for k in taken_up:
         shortlist.setdefault(candidates[k].key, [k])
     refits = []
@@ -203,10 +219,10 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
                 continue
             odds[k] = log_odds(taken, state.plain.observed, gain, own.std_error * float(taken.typical[0]))
             refits.append((gain, k, after))
-    if all(z[k] <= least for _, k, _ in refits):
+    if all(z[k] <= least[k] for _, k, _ in refits):
         return None
-    sure = {candidates[k].cause.family for _, k, _ in refits if z[k] > least} - {""}
-    refits = [refit for refit in refits if z[refit[1]] > least or candidates[refit[1]].cause.family in sure]
+    sure = {candidates[k].cause.family for _, k, _ in refits if z[k] > least[k]} - {""}
+    refits = [one for one in refits if z[one[1]] > least[one[1]] or candidates[one[1]].cause.family in sure]
     most = max(gain for gain, _, _ in refits)
     as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
     # Equals in gain are told apart by what is usual of them, and not by a trifle; one at its bound comes last.
@@ -226,7 +242,7 @@ def _both_of_the_channel(
 ) -> list[Found]:
     """An offset and a delay of all tests, where a discrepancy takes up both and leaves neither alone a gain."""
     pair = [c for c in surveyed.candidates if c.cause.stage == CHANNEL and c.place is None]
-    if len(pair) != 2 or not (state.variances > HIDES**2).any():
+    if len(pair) != 2 or not (state.hidden > HIDES**2).any():
         return []
     both = smoothed(afresh(state, (*state.fitted.active, *pair)))
     taken = both.fitted.active[-2:]
@@ -261,9 +277,8 @@ def stands(before: State, state: State, taken: Candidate, own: Estimate) -> bool
 def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate], Direction]:
     """Candidates that are not taken yet and that the table can show, with their directions."""
     taken = {candidate.key for candidate in state.fitted.active}
-    candidates = [
-        c for c in chance.catalogue_candidates(state.plain.observed, catalogue) if c.key not in taken
-    ]
+    every = chance.catalogue_candidates(state.plain.observed, catalogue)
+    candidates = [c for c in every if c.key not in taken and (c.cause.part_of, None) not in taken]
     if not candidates:
         return [], Direction(np.zeros((state.model.along.size, 0)), np.zeros((0, 0)), np.zeros(0))
     d = state.plain.noise.whiten(chance.candidate_directions(state.plain, state.fitted, candidates))

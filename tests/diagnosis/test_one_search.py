@@ -9,11 +9,12 @@ import pytest
 from test_doubts import table as campaign
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.model import discrepancy, fit_beside, likelihood, start
+from asphalt_nscd.diagnosis.model import discrepancy, fit_beside, laboratory, likelihood, start
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.observed import scatter
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.search import limits_beside, with_discrepancy
+from asphalt_nscd.diagnosis.search import limits as sizes
+from asphalt_nscd.diagnosis.search import one_search
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
@@ -56,10 +57,16 @@ def table(
     )
 
 
-def climbed(observed: Observations) -> tuple[list, fit_beside.State, with_discrepancy.Survey]:
+def begin(observed: Observations, noise) -> fit_beside.State:
+    """Beside the discrepancy and what a laboratory adds."""
+    joint, fitted = start.fit_spectrum(observed, noise)
+    return fit_beside.begin(laboratory.alone(joint), fitted)
+
+
+def climbed(observed: Observations) -> tuple[list, fit_beside.State, one_search.Survey]:
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
-    return with_discrepancy.climb(begun, CATALOGUE, 1000, np.random.default_rng(0))
+    begun = begin(observed, noise)
+    return one_search.climb(begun, CATALOGUE, 1000, np.random.default_rng(0))
 
 
 @pytest.mark.parametrize("hidden", [{"offset": 3.0}, {"offset": -3.0}, {"delay": 6e-4}, {"delay": -6e-4}])
@@ -71,18 +78,11 @@ def test_an_effect_of_all_tests_is_found_beside_broken_isotherms(hidden):
     found = [one.candidate.cause.name for one in taken]
     assert name in found
     candidate = next(c for c in state.fitted.active if c.cause.name == name)
-    value, error = limits_beside.estimates(state, survey)[candidate.key]
+    value, error = sizes.estimates(state, survey)[candidate.key]
     assert abs(value - size) < 3.0 * error and error < 0.1 * abs(size)
     sizes_known = fit_beside.taken_amplitude(state, candidate).std_error * candidate.typical[0]
     assert sizes_known < error < 2.0 * sizes_known
-    assert with_discrepancy.hangs_on(state, candidate) == []
-
-
-def test_a_second_process_that_no_size_of_its_own_carries_takes_no_probability_from_a_delay():
-    """With it among the names, the delay has 0.85."""
-    taken, _, _ = climbed(table(delay=6e-5, broken=0.0, design=TRAPEZOIDS))
-    assert [one.candidate.cause.name for one in taken] == ["channel_delay"]
-    assert taken[0].probability > 0.97
+    assert one_search.hangs_on(state, candidate) == []
 
 
 def test_a_second_process_is_found_by_what_it_gains_however_uncertain_its_size():
@@ -93,14 +93,14 @@ def test_a_second_process_is_found_by_what_it_gains_however_uncertain_its_size()
     taken, state, _ = climbed(replace(observed, modulus=with_second))
     assert [one.candidate.cause.name for one in taken] == ["secondary_process"]
     candidate = state.fitted.active[0]
-    assert with_discrepancy.hangs_on(state, candidate) == []
+    assert one_search.hangs_on(state, candidate) == []
     rows = np.flatnonzero(observed.isotherm != 20.0)
-    assert fit_beside.taken_amplitude(state, candidate, rows).z < with_discrepancy.SURVIVES
+    assert fit_beside.taken_amplitude(state, candidate, rows).z < one_search.SURVIVES
     # What is judged in its place is no more than a step from the fit: it is the fit's own, and that of one anew.
     before = taken[0].before
     everything = np.arange(observed.size)
     gain = before.misfit - taken[0].after.misfit
-    of = with_discrepancy._misfit_of
+    of = one_search._misfit_of
     assert of(before, everything) - of(taken[0].after, everything) == pytest.approx(gain, abs=0.5)
 
 
@@ -111,40 +111,9 @@ def test_a_second_process_that_one_isotherm_alone_asks_for_hangs_on_it():
     here = observed.isotherm == 20.0
     odd = replace(observed, modulus=np.where(here, with_second, observed.modulus))
     noise = scatter.stated(odd, 0.01, np.radians(0.3), 0.03)
-    begun = fit_beside.begin(*start.fit_spectrum(odd, noise))
+    begun = begin(odd, noise)
     state = fit_beside.refit_causes(begun, (Candidate(second, None, (2e9, -2.0, 60.0, 0.6)),))
-    assert "20 degC" in with_discrepancy.hangs_on(state, state.fitted.active[0])
-
-
-def test_shapes_cost_the_share_of_their_prior_that_the_tests_leave_them(monkeypatch):
-    observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
-    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
-    misfits, gains, fits = {}, {}, {}
-
-    def stands(before, state, taken, own):
-        assert before is begun
-        misfits[taken.cause.name], fits[taken.cause.name] = state.misfit, (state.fitted, taken)
-        return True
-
-    def log_odds(candidate, observed, gain, std_error):
-        gains[candidate.cause.name] = gain
-        return 0.0
-
-    monkeypatch.setattr(with_discrepancy, "stands", stands)
-    monkeypatch.setattr(with_discrepancy, "log_odds", log_odds)
-    surveyed = with_discrepancy.survey(begun, CATALOGUE)
-    with_discrepancy._next(begun, surveyed, 500, np.random.default_rng(0))
-    whole = gains["channel_delay"]
-    assert whole == pytest.approx(begun.misfit - misfits["channel_delay"])
-    cost = fit_beside.shape_cost(*fits["secondary_process"], observed)
-    assert cost > 6.0
-    assert gains["secondary_process"] == pytest.approx(begun.misfit - misfits["secondary_process"] - cost)
-    for left in (6.2, 5.8):  # of a gain, where 2 ln 20 is twenty times as likely
-        gains.clear()
-        monkeypatch.setattr(with_discrepancy, "shape_cost", lambda *_, left=left: whole - left)
-        with_discrepancy._next(begun, surveyed, 500, np.random.default_rng(0))
-        assert ("channel_delay" in gains) == (left > 2.0 * np.log(20.0))
+    assert "20 degC" in one_search.hangs_on(state, state.fitted.active[0])
 
 
 def test_the_cost_of_shapes_is_that_of_an_integral_over_them():
@@ -169,32 +138,16 @@ def test_the_cost_of_shapes_is_that_of_an_integral_over_them():
     assert fit_beside.shape_cost(fitted, single, observed) == 0.0
 
 
-def test_the_limit_of_a_second_process_pays_for_its_shapes(monkeypatch):
-    observed = table(broken=0.0, design=TRAPEZOIDS)
-    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
-    surveyed = with_discrepancy.survey(begun, CATALOGUE)
-
-    def limits():
-        return limits_beside.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
-
-    usual = limits()
-    monkeypatch.setattr(limits_beside, "shape_cost", lambda fitted, candidate, observed: 40.0)
-    dear = limits()
-    assert dear["secondary_process", None] > 1.1 * usual["secondary_process", None]
-    assert dear["channel_delay", None] == usual["channel_delay", None]
-
-
 def test_what_competes_for_a_name_has_a_size_and_shapes_of_its_own():
     observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
+    begun = begin(observed, noise)
     by_name = {cause.name: cause for cause in CATALOGUE}
 
     def stands(name: str, *values: float) -> tuple[bool, bool]:
         state = fit_beside.refit_causes(begun, (Candidate(by_name[name], None, values),))
         taken = state.fitted.active[-1]
-        return with_discrepancy.stands(begun, state, taken, fit_beside.taken_amplitude(state, taken)), bool(
+        return one_search.stands(begun, state, taken, fit_beside.taken_amplitude(state, taken)), bool(
             taken.pinned
         )
 
@@ -211,45 +164,24 @@ def test_a_second_process_that_shifts_as_fast_as_half_the_mix_is_found(strength)
     taken, state, survey = climbed(replace(observed, modulus=with_second))
     assert [one.candidate.cause.name for one in taken] == ["secondary_process"]
     candidate = state.fitted.active[0]
-    value, error = limits_beside.estimates(state, survey)[candidate.key]
+    value, error = sizes.estimates(state, survey)[candidate.key]
     assert abs(value - strength) < 2.0 * error and error < 0.5 * strength
     assert candidate.values[1:] == pytest.approx((-1.2, 82.0, 0.8), rel=0.1)
 
 
-def _next_name(monkeypatch, observed: Observations, stands, odds: dict[str, float]) -> with_discrepancy.Found:
+def _next_name(monkeypatch, observed: Observations, stands, odds: dict[str, float]) -> one_search.Found:
     """The name taken where `stands(candidate)` says who competes, and odds are these."""
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
-    monkeypatch.setattr(
-        with_discrepancy, "stands", lambda before, state, taken, own: stands(begun, taken, state)
-    )
-    monkeypatch.setattr(
-        with_discrepancy, "log_odds", lambda candidate, *_: odds.get(candidate.cause.name, -20.0)
-    )
-    surveyed = with_discrepancy.survey(begun, CATALOGUE)
-    return with_discrepancy._next(begun, surveyed, 500, np.random.default_rng(0))
-
-
-def test_a_fit_of_shapes_that_does_not_stand_gives_way_to_one_from_another_start(monkeypatch):
-    observed = table(broken=0.0)
-    second = next(cause for cause in CATALOGUE if cause.name == "secondary_process")
-    with_second = second.apparent(observed.modulus, np.array([1e9, -1.2, 60.0, 0.6]), observed)
-    tried = []
-
-    def stands(begun, taken, state):
-        tried.append(taken.cause.name)
-        return taken.shaped and tried.count(taken.cause.name) > 1
-
-    found = _next_name(
-        monkeypatch, replace(observed, modulus=with_second), stands, {"secondary_process": 9.0}
-    )
-    assert found.candidate.cause.name == "secondary_process"
-    assert tried.count("secondary_process") == 2
+    begun = begin(observed, noise)
+    monkeypatch.setattr(one_search, "stands", lambda before, state, taken, own: stands(begun, taken, state))
+    monkeypatch.setattr(one_search, "log_odds", lambda candidate, *_: odds.get(candidate.cause.name, -20.0))
+    surveyed = one_search.survey(begun, CATALOGUE)
+    return one_search._next(begun, surveyed, 500, np.random.default_rng(0))
 
 
 @pytest.mark.parametrize("likelier", ["secondary_process", "channel_delay"])
 def test_of_causes_as_good_the_likelier_is_named_whatever_its_shapes(monkeypatch, likelier):
-    monkeypatch.setattr(with_discrepancy, "shape_cost", lambda *_: 0.0)
+    monkeypatch.setattr(one_search, "shape_cost", lambda *_: 0.0)
     odds = {"secondary_process": 0.0, "channel_delay": 0.0} | {likelier: 0.1}  # together possible, not alone
     observed = table(delay=6e-5, broken=0.0, design=TRAPEZOIDS)
     found = _next_name(monkeypatch, observed, lambda *_: True, odds)
@@ -262,34 +194,20 @@ def test_the_limit_of_a_second_process_counts_wide_ones(monkeypatch):
     """With an exponent of 0.5 it takes about twice the strength of one of 0.8."""
     observed = table(broken=0.0, design=TRAPEZOIDS)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
+    begun = begin(observed, noise)
     second = next(cause for cause in CATALOGUE if cause.name == "secondary_process")
     every = second.shapes(observed)
 
     def limit(*exponents: float) -> float:
         shapes = tuple(shape for shape in every if shape[-1] in exponents)
         monkeypatch.setattr(type(second), "shapes", lambda self, observed: shapes)
-        surveyed = with_discrepancy.survey(begun, CATALOGUE)
-        limits = limits_beside.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
+        surveyed = one_search.survey(begun, CATALOGUE)
+        limits = sizes.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
         return limits["secondary_process", None]
 
     narrow, wide, of_all = (limit(*exponents) for exponents in ((0.8,), (0.5,), (0.5, 0.65, 0.8)))
     assert wide > 1.9 * narrow
     assert narrow < of_all < wide
-
-
-@pytest.mark.parametrize(("frequencies", "shows"), [(CYLINDERS[1], True), ((0.1, 1.0, 10.0), False)])
-def test_a_second_process_has_a_limit_only_where_the_whole_table_would_carry_it(frequencies, shows):
-    """Of three isotherms at three frequencies one carries it: the search would not take it at any size."""
-    observed = table(broken=0.0, design=((4.0, 20.0, 40.0), frequencies))
-    noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
-    surveyed = with_discrepancy.survey(begun, CATALOGUE)
-    limits, unseen, _ = limits_beside.detection_limits(begun, surveyed, 500, np.random.default_rng(0))
-    assert (("secondary_process", None) in limits) is shows
-    assert ("secondary_process" in [one.cause.name for one in unseen]) is not shows
-    # A bump of more than a fifth of the stiffest test is the main process.
-    assert limits.get(("secondary_process", None), 0.0) <= 0.2 * np.abs(observed.modulus).max()
 
 
 @pytest.mark.parametrize(
@@ -305,16 +223,16 @@ def test_a_cause_with_shapes_competes_if_all_carry_it_and_no_shape_is_at_a_bound
     monkeypatch, values, carried, stands
 ):
     second = next(cause for cause in CATALOGUE if cause.name == "secondary_process")
-    monkeypatch.setattr(with_discrepancy, "hangs_on", lambda state, candidate, before: carried)
+    monkeypatch.setattr(one_search, "hangs_on", lambda state, candidate, before: carried)
     own = likelihood.Estimate(np.zeros(0), 0.0, amplitude=9.0, std_error=1.0)
-    assert with_discrepancy.stands(None, None, Candidate(second, None, values), own) is stands
+    assert one_search.stands(None, None, Candidate(second, None, values), own) is stands
 
 
 def test_a_cause_of_an_isotherm_is_no_hindrance_where_that_isotherm_is_left_out():
     """Its parameter is then spoken of by no test: the sizes of the other causes stay finite."""
     observed = table(offset=3.0)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    begun = fit_beside.begin(*start.fit_spectrum(observed, noise))
+    begun = begin(observed, noise)
     by_name = {cause.name: cause for cause in CATALOGUE}
     active = (
         Candidate(by_name["phase_offset"], None, (2.0,)),
@@ -334,13 +252,13 @@ def test_broken_isotherms_alone_get_no_established_name():
     taken, state, _ = climbed(table())
     for one in taken:
         candidate = next(c for c in state.fitted.active if c.key == one.candidate.key)
-        assert with_discrepancy.hangs_on(state, candidate), one.candidate.key
+        assert one_search.hangs_on(state, candidate), one.candidate.key
 
 
 def test_what_breaks_the_hot_isotherms_is_sized_there_and_nowhere_else():
     observed = table()
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    state = fit_beside.begin(*start.fit_spectrum(observed, noise))
+    state = begin(observed, noise)
     sizes = dict(zip(state.model.processes.described, np.sqrt(state.variances), strict=True))
 
     def size(part, isotherm):
@@ -354,9 +272,9 @@ def test_limits_grow_with_the_discrepancy():
     limits = []
     for observed in (table(broken=0.0), table()):
         noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-        state = fit_beside.begin(*start.fit_spectrum(observed, noise))
-        survey = with_discrepancy.survey(state, CATALOGUE)
-        found, _, _ = limits_beside.detection_limits(state, survey, 500, np.random.default_rng(0))
+        state = begin(observed, noise)
+        survey = one_search.survey(state, CATALOGUE)
+        found, _, _ = sizes.detection_limits(state, survey, 500, np.random.default_rng(0))
         limits.append(found["phase_offset", None])
     assert limits[0] < limits[1]
 
@@ -398,7 +316,7 @@ def test_a_size_that_rounding_cannot_bear_ends_the_estimate_and_no_more():
 def test_the_limit_of_a_cause_in_the_fit_is_its_standard_error_times_what_chance_reaches():
     _, state, survey = climbed(table(delay=6e-4))
     (candidate,) = (c for c in state.fitted.active if c.cause.name == "channel_delay")
-    found, _, _ = limits_beside.detection_limits(state, survey, 500, np.random.default_rng(0))
+    found, _, _ = sizes.detection_limits(state, survey, 500, np.random.default_rng(0))
     own = fit_beside.taken_amplitude(state, candidate).std_error * candidate.typical[0]
     assert 4.0 < found[candidate.key] / own < 7.0
 
@@ -408,9 +326,9 @@ def test_a_discrepancy_that_may_take_a_cause_up_raises_its_limit(broken):
     """Where it takes up as much as an error of temperature can be, the table shows none."""
     observed = table(broken=broken)
     noise = scatter.stated(observed, 0.01, np.radians(0.3), 0.03)
-    state = fit_beside.begin(*start.fit_spectrum(observed, noise))
-    survey = with_discrepancy.survey(state, CATALOGUE)
-    found, unseen, _ = limits_beside.detection_limits(state, survey, 500, np.random.default_rng(0))
+    state = begin(observed, noise)
+    survey = one_search.survey(state, CATALOGUE)
+    found, unseen, _ = sizes.detection_limits(state, survey, 500, np.random.default_rng(0))
     ratio = {
         one.key: found.get(one.key, np.inf) / (estimate.std_error * one.typical[0])
         for one, estimate in zip(survey.candidates, survey.estimates, strict=True)
@@ -472,14 +390,12 @@ def test_both_of_the_channel_may_be_chance_once_in_two_hundred_tables(monkeypatc
         (0.0, 10.0, 20.0, 30.0),
         (1.0, 3.0, 10.0, 30.0),
     )
-    begun = fit_beside.begin(
-        *start.fit_spectrum(observed, scatter.stated(observed, 0.01, np.radians(0.3), 0.03))
-    )
-    surveyed = with_discrepancy.survey(begun, CATALOGUE)
+    begun = begin(observed, scatter.stated(observed, 0.01, np.radians(0.3), 0.03))
+    surveyed = one_search.survey(begun, CATALOGUE)
     for larger, named in ((4, 2), (6, 0)):
         draws = np.repeat([0.0, 1e3], [1000 - larger, larger])
-        monkeypatch.setattr(with_discrepancy, "largest_by_chance", lambda *_, draws=draws: draws)
-        assert len(with_discrepancy._both_of_the_channel(begun, surveyed, 1000, None)) == named
+        monkeypatch.setattr(one_search, "largest_by_chance", lambda *_, draws=draws: draws)
+        assert len(one_search._both_of_the_channel(begun, surveyed, 1000, None)) == named
 
 
 @pytest.mark.parametrize("sign,seed", [(1.0, 3), (1.0, 5), (-1.0, 4)])
