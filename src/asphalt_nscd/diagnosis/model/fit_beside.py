@@ -64,14 +64,13 @@ class State:
 
 def begin(plain: Joint, fitted: Fitted) -> State:
     """Fit law, discrepancy and laboratory with the causes of the fit, mostly none, from where its law stands."""
-    return smoothed(_anew(plain, plain.linearise(fitted.law, fitted.scales, fitted.active)))
-
-
-def _anew(plain: Joint, linear: Fitted) -> State:
-    """From usual sizes of all processes, which are those of this law."""
+    linear = plain.linearise(fitted.law, fitted.scales, fitted.active)
     found = laboratory.processes(plain, linear)
     start = likelihood.estimate(likelihood.reduce(found, linear)).variances
-    return settle(plain, found, linear, linear.active, start)
+    # A law that was fitted without the laboratory's errors has bent to them.
+    straight = settle(plain, found, linear, linear.active, start)
+    known = laboratory.without_one(straight.model.processes, straight.linear, straight.variances)
+    return smoothed(settle(plain, known, straight.fitted, linear.active, straight.variances))
 
 
 def refit_causes(state: State, active: tuple[Candidate, ...]) -> State:
@@ -145,7 +144,11 @@ def afresh(state: State, active: tuple[Candidate, ...]) -> State:
     """Fit law and causes before there is a discrepancy, which else keeps what it took up without them."""
     laws = [state.fitted.law, *first_laws(state.plain)]
     fits = [state.plain.fit(law, state.fitted.scales, active, CONVERGED) for law in laws]
-    return _anew(state.plain, min(fits, key=lambda one: one.objective))
+    fitted, known = min(fits, key=lambda one: one.objective), state.model.processes
+    found = laboratory.processes(state.plain, fitted)
+    found = replace(found, usual=known.usual, spread=known.spread)
+    start = likelihood.estimate(likelihood.reduce(found, fitted)).variances
+    return settle(state.plain, found, fitted, fitted.active, start)
 
 
 def taken_amplitude(

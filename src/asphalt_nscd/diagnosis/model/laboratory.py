@@ -4,7 +4,8 @@ An isotherm is held to some tenths of a kelvin, each specimen on it too. Each sp
 mounting a level and a phase of its own. None of that is a fault, and without it every table holds one: of 80 drawn
 tables that have nothing else, 28 were given a name. The sizes are inferred from the table by restricted likelihood,
 beside the discrepancy and with the cause that is tried in the model; few isotherms and specimens say little of them, so
-that each has a prior with a source.
+that each has a prior with a source. Where one isotherm or specimen may be at fault, the others say how careful the
+laboratory is.
 """
 
 from __future__ import annotations
@@ -15,11 +16,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.criteria import LABORATORY
-from asphalt_nscd.diagnosis.model import discrepancy
+from asphalt_nscd.diagnosis.model import discrepancy, likelihood
 from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
 from asphalt_nscd.diagnosis.model.joint import Fitted, Joint, Vector
 
 STEP = 0.05  # K or of ln time, of a derivative
+OF_FEW = (
+    "isotherm temperature",
+    "specimen times",
+)  # of which a table holds so few that one at fault enlarges them
+FEW = 2
+KNOWN = 0.2  # standard deviation of the logarithm of their size, once it is that of the others
 
 
 @dataclass(frozen=True)
@@ -64,6 +71,21 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
 def of_laboratory(found: Processes) -> NDArray[np.bool_]:
     """Which of the processes (m,) a laboratory adds to any table."""
     return np.array([one.kind in LABORATORY for one in found.described])
+
+
+def without_one(found: Processes, fitted: Fitted, variances: Vector) -> Processes:
+    """The processes with sizes of OF_FEW as they are with one isotherm or specimen free, which may be at fault."""
+    model, usual, spread = likelihood.reduce(found, fitted), found.usual.copy(), found.spread.copy()
+    for k, one in enumerate(found.described):
+        columns = np.flatnonzero(found.block == k)
+        if one.kind in OF_FEW and columns.size > FEW:
+            free = likelihood.directions(model, fitted, found.factor[:, columns])
+            each = (
+                likelihood.estimate(model, free.column(at), variances).variances[k]
+                for at in range(columns.size)
+            )
+            usual[k], spread[k] = np.sqrt(min(each)), KNOWN
+    return replace(found, usual=usual, spread=spread)
 
 
 def inferred(found: Processes, variances: Vector) -> Laboratory:

@@ -151,7 +151,8 @@ def _promising(state: State, candidates: Sequence[Candidate], pointing: Directio
     of_one = [one.kind == "all" or (one.specimen or one.isotherm) is not None for one in found.described]
     least = np.where(of_one, discrepancy.LEAST, lean(found, state.variances))
     information, score = likelihood.weighed(state.model, pointing, least)
-    z = np.abs(score) / np.sqrt(np.maximum(np.diag(information), 1e-12))
+    z = score / np.sqrt(np.maximum(np.diag(information), 1e-12))
+    z = np.where([one.cause.one_sided for one in candidates], z, np.abs(z))
     count: dict[tuple, int] = {}
     for k in np.argsort(-z, kind="stable").tolist():
         key = candidates[k].key
