@@ -142,7 +142,7 @@ def detection_limits(
         sizes = {key: size for key, size in sizes.items() if key not in hidden}
         every = replace(found, seen=np.ones(errors.size, bool))
         alike = _alike(surveyed.candidates, every, TWENTY_TIMES)
-    for active in state.fitted.active:
+    for active in (one for one in state.fitted.active if not one.cause.told):
         own = taken_amplitude(state, active)
         sizes[active.key] = (threshold + Z_95) * own.std_error * float(active.typical[0])
     return sizes, unseen, alike
