@@ -167,7 +167,7 @@ def place_name(where: str | float | None) -> str:
     return specimen_named(where) if isinstance(where, str) else f"{where:g} °C".replace("-", "\N{MINUS SIGN}")
 
 
-def name_at(cause: str, place: str | float | None) -> str:
+def name_at(cause: str, place: object) -> str:
     """`cause @ place`, or `cause` alone for all tests (None); a place is a specimen or an isotherm [degC]."""
     return cause if place is None else f"{cause} @ {place}"
 

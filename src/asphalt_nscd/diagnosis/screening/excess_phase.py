@@ -46,8 +46,11 @@ def excess_phases(observed: Observations, noise: Noise) -> list[ExcessPhase]:
 
 
 def shows_excess(observed: Observations, noise: Noise) -> bool:
-    """Whether the phases of some isotherm lie above what their own |E*| requires, beyond chance."""
-    return any(one.excess > SPEAKS * one.std_error for one in excess_phases(observed, noise))
+    """Whether the phases of some isotherm lie above what their own |E*| requires, beyond chance, and of none warmer
+    below: what a mix does where it is soft does not turn about where it is softer.
+    """
+    found = [one.excess / one.std_error for one in excess_phases(observed, noise)]
+    return any(z > SPEAKS and min(found[k:]) > -SPEAKS for k, z in enumerate(found))
 
 
 def constant_excess(

@@ -16,6 +16,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.criteria import ABSORBED, ENOUGH, MANY_ISOTHERMS, MOST_SPECIMENS, TWENTY_TIMES
 from asphalt_nscd.diagnosis.model import discrepancy, likelihood
 from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
@@ -25,7 +26,7 @@ from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate, Reduced
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 Vector = NDArray[np.float64]
-Key = tuple[str, str | float | None]
+Key = tuple[str, Place]
 FIRST = 0.05  # size at which the search for the size of a rival begins, in its own units
 RIVAL = Process("rival", "both")
 

@@ -108,8 +108,9 @@ def at_frequency(estimates: Mapping[tuple, tuple[float, float]], found: list[Odd
     if not at:
         return None
     place = max(at, key=lambda one: one.probability).candidate.place
+    assert isinstance(place, Setting)
     modulus, phase = (estimates[f"{part} at one frequency", place] for part in ("level", "offset"))
-    return AtFrequency(place[0], modulus, (float(np.radians(phase[0])), float(np.radians(phase[1]))))
+    return AtFrequency(place.frequency, modulus, (float(np.radians(phase[0])), float(np.radians(phase[1]))))
 
 
 def torn_isotherms(state: State) -> list[float]:
