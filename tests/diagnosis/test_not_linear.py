@@ -7,8 +7,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_with_discrepancy import TRAPEZOIDS
-from test_with_discrepancy import table as broken_table
+from test_one_search import TRAPEZOIDS
+from test_one_search import table as broken_table
 
 from asphalt_nscd.api.tables import campaign_in
 from asphalt_nscd.diagnosis.observed import scatter

@@ -33,7 +33,7 @@ Place = str | float | Sweep | Setting | None
 
 # In the order in which a signal passes them. One of CHANNEL has one parameter and no place: it is fitted before the
 # errors of the laboratory are sized (`model.laboratory`), and beside every large discrepancy
-# (`search.with_discrepancy`). What sits at HEAD with one parameter and no place, and each of CHANNEL, is pooled over
+# (`search.one_search`). What sits at HEAD with one parameter and no place, and each of CHANNEL, is pooled over
 # a machine's campaigns too (`machine.pooled`).
 MATERIAL, SPECIMEN, HEAD, CHANNEL = range(4)
 EXCESS = (
