@@ -6,7 +6,7 @@ is that of all its places together.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -26,150 +26,97 @@ from asphalt_nscd.diagnosis.causes.phase_offset import PhaseOffset
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
 FEWEST = 3  # frequencies: of two neither is the wrong one
+Factor = Callable[[float, Observations], Complex | complex]
+Places = Callable[[Observations], Sequence[Place]]
 
 
 class OfOnePlace(Cause):
-    """A fault that is told with its place; what it does is a factor of E*."""
+    """A fault that is told with its place; what it does is a factor of E*, or a rise of the temperature."""
 
-    stage = CHANNEL
     told = True
+
+    def __init__(self, name: str, amplitude: Parameter, usual: Expected, at: Places, factor: Factor) -> None:
+        self.name, self.parameters, self.expected = name, (amplitude,), usual  # type: ignore[misc]
+        self.stage = MATERIAL if amplitude.unit == "K" else CHANNEL  # type: ignore[misc]
+        # What an offset of all tests leaves of its own at each isotherm is the machine's.
+        self.part_of = PhaseOffset.name if at is isotherms else ""  # type: ignore[misc]
+        self._places, self._factor = at, factor
+
+    def places(self, observed: Observations) -> Sequence[Place]:
+        """Where it may sit, of several."""
+        return self._places(observed)
+
+    def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
+        """The rise above the stated temperature, where that is what is wrong [K]."""
+        return values[0] if self.stage == MATERIAL else 0.0
 
     def apparent(self, modulus: Complex, values: Vector, observed: Observations) -> Complex:
         """E* times the factor (n,) of the fault; `values` (1,)."""
-        return modulus * self.factor(values[0], observed)
+        return modulus * self._factor(values[0], observed)
 
-    def factor(self, size: float, observed: Observations) -> Complex | complex:
-        """What E* is multiplied by, (n,) or one for all; an angle unless a fault says more."""
-        return np.exp(1j * np.radians(size))
+
+def specimens(observed: Observations) -> Sequence[Place]:
+    """Each of several, which has gauges of its own."""
+    return observed.names if len(observed.names) > 1 else ()
+
+
+def of_several_frequencies(observed: Observations) -> Sequence[Place]:
+    """Specimens; at one frequency a delay is an offset."""
+    return specimens(observed) if observed.frequencies.size > 1 else ()
+
+
+def isotherms(observed: Observations) -> Sequence[Place]:
+    """Each of several with a few tests."""
+    return [float(t) for t in observed.held_isotherms] if observed.isotherms.size > 1 else ()
 
 
 def sweeps(observed: Observations) -> Sequence[Place]:
-    """Each specimen on each isotherm with a few tests, where both are several."""
-    if observed.isotherms.size < 2 or len(observed.names) < 2:
-        return ()
-    return [Sweep(name, float(t)) for name in observed.names for t in observed.held_isotherms]
+    """Each specimen on each isotherm, where both are several."""
+    return [Sweep(str(name), float(t)) for name in specimens(observed) for t in isotherms(observed)]  # type: ignore
 
 
 def ends(observed: Observations) -> Sequence[Place]:
-    """The highest and the lowest frequency, where a cycle has few samples, or is cut short."""
+    """The highest and the lowest frequency, where a cycle has few samples, is cut short, or is noted wrongly."""
     every = observed.frequencies
     return [Setting(float(every[-1])), Setting(float(every[0]))] if every.size >= FEWEST else ()
 
 
-class OffsetOfSpecimen(OfOnePlace):
-    """Each specimen has gauges of its own."""
-
-    name = "offset of one specimen"
-    parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
-    expected = Expected(0.1, 1.2)
-
-    def places(self, observed: Observations) -> Sequence[Place]:
-        """Each specimen of several."""
-        return observed.names if len(observed.names) > 1 else ()
+def turned(degrees: float, observed: Observations) -> complex:
+    """All phases by one angle."""
+    return complex(np.exp(1j * np.radians(degrees)))
 
 
-class DelayOfSpecimen(OfOnePlace):
-    """The displacement of one specimen is recorded later than the force."""
-
-    name = "delay of one specimen"
-    parameters = (Parameter("delay", "s", -2e-2, 2e-2, 1e-4),)
-    expected = Expected(0.03, 2.5e-4)
-
-    def places(self, observed: Observations) -> Sequence[Place]:
-        """Each specimen of several; at one frequency a delay is an offset."""
-        return observed.names if len(observed.names) > 1 and observed.frequencies.size > 1 else ()
-
-    def factor(self, size: float, observed: Observations) -> Complex:
-        """An angle in proportion to the frequency."""
-        return np.asarray(np.exp(1j * observed.omega * size))
+def delayed(seconds: float, observed: Observations) -> Complex:
+    """Phases in proportion to the frequency."""
+    return np.asarray(np.exp(1j * observed.omega * seconds))
 
 
-class OffsetOfIsotherm(OfOnePlace):
-    """All phases of one isotherm are off."""
-
-    name = "offset of one isotherm"
-    part_of = PhaseOffset.name  # what is left of one without a single size is the machine's
-    parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
-    expected = Expected(0.03, 1.2)
-
-    def places(self, observed: Observations) -> Sequence[Place]:
-        """Each isotherm of several."""
-        return [float(t) for t in observed.held_isotherms] if observed.isotherms.size > 1 else ()
+def scaled(logarithm: float, observed: Observations) -> complex:
+    """|E*| by a gain, a unit or a dimension."""
+    return float(np.exp(logarithm))
 
 
-class TemperatureOfSweep(OfOnePlace):
-    """A specimen was not at the temperature of its isotherm: one of a hundred sweeps."""
-
-    name = "temperature of one specimen on one isotherm"
-    stage = MATERIAL
-    # As far as two isotherms whose files were exchanged.
-    parameters = (Parameter("temperature_rise", "K", -25.0, 25.0, 0.3),)
-    expected = Expected(0.15, 1.5)
-
-    def places(self, observed: Observations) -> Sequence[Place]:
-        """Each sweep."""
-        return sweeps(observed)
-
-    def temperature_rise(self, values: Vector, observed: Observations) -> Vector | float:
-        """The rise of the specimen above the stated temperature [K]."""
-        return values[0]
-
-    def factor(self, size: float, observed: Observations) -> complex:
-        """What the temperature does to the modulus is the law's."""
-        return 1.0
+def unchanged(kelvin: float, observed: Observations) -> complex:
+    """What a temperature does is the law's."""
+    return 1.0
 
 
-class LevelOfSweep(OfOnePlace):
-    """A gain, a unit or a dimension is wrong in one sweep."""
-
-    name = "level of one specimen on one isotherm"
-    parameters = (Parameter("logarithm_of_factor", "1", -3.0, 3.0, 0.02),)
-    expected = Expected(0.1, 0.25)
-
-    def places(self, observed: Observations) -> Sequence[Place]:
-        """Each sweep."""
-        return sweeps(observed)
-
-    def factor(self, size: float, observed: Observations) -> complex:
-        """The factor of its logarithm."""
-        return float(np.exp(size))
-
-
-class PhaseOfSweep(OfOnePlace):
-    """The phases of one sweep are off by an angle."""
-
-    name = "offset of one specimen on one isotherm"
-    parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
-    expected = Expected(0.06, 3.0)
-
-    def places(self, observed: Observations) -> Sequence[Place]:
-        """Each sweep."""
-        return sweeps(observed)
-
-
-class LevelOfFrequency(OfOnePlace):
-    """|E*| is off at the highest or lowest frequency: too few samples in a cycle, or a frequency noted wrongly."""
-
-    name = "level at one frequency"
-    parameters = (Parameter("logarithm_of_factor", "1", -3.0, 3.0, 0.02),)
-    expected = Expected(0.05, 0.08)
-
-    def places(self, observed: Observations) -> Sequence[Place]:
-        """The highest and the lowest."""
-        return ends(observed)
-
-    def factor(self, size: float, observed: Observations) -> complex:
-        """The factor of its logarithm."""
-        return float(np.exp(size))
-
-
-class PhaseOfFrequency(OfOnePlace):
-    """The phases at the highest or lowest frequency are off by an angle."""
-
-    name = "offset at one frequency"
-    parameters = (Parameter("offset", "deg", -30.0, 30.0, 0.5),)
-    expected = Expected(0.05, 2.5)
-
-    def places(self, observed: Observations) -> Sequence[Place]:
-        """The highest and the lowest."""
-        return ends(observed)
+ANGLE, LEVEL = (
+    Parameter("offset", "deg", -30.0, 30.0, 0.5),
+    Parameter("logarithm_of_factor", "1", -3.0, 3.0, 0.02),
+)
+DELAY = Parameter("delay", "s", -2e-2, 2e-2, 1e-4)
+WARMER = Parameter(
+    "temperature_rise", "K", -25.0, 25.0, 0.3
+)  # as far as isotherms whose files were exchanged
+OF_ONE_PLACE = (
+    OfOnePlace("offset of one specimen", ANGLE, Expected(0.1, 1.2), specimens, turned),
+    OfOnePlace("delay of one specimen", DELAY, Expected(0.03, 2.5e-4), of_several_frequencies, delayed),
+    OfOnePlace("offset of one isotherm", ANGLE, Expected(0.03, 1.2), isotherms, turned),
+    # One of a hundred sweeps.
+    OfOnePlace("temperature of one specimen on one isotherm", WARMER, Expected(0.15, 1.5), sweeps, unchanged),
+    OfOnePlace("level of one specimen on one isotherm", LEVEL, Expected(0.1, 0.25), sweeps, scaled),
+    OfOnePlace("offset of one specimen on one isotherm", ANGLE, Expected(0.06, 3.0), sweeps, turned),
+    OfOnePlace("level at one frequency", LEVEL, Expected(0.05, 0.08), ends, scaled),
+    OfOnePlace("offset at one frequency", ANGLE, Expected(0.05, 2.5), ends, turned),
+)
