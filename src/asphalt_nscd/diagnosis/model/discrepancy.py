@@ -52,8 +52,8 @@ class Processes:
 
     `roots` (n, rank) are factors of ln E* of each process, real for the modulus and imaginary for the phase; `factor`
     (2n, q) holds all of them whitened, `block` (q,) the process of each column; `usual` (m,) are usual sizes. `spread`
-    (m,) is the standard deviation of the logarithm of a size about the usual one, infinite of one that is mostly zero
-    (half-Cauchy).
+    (m,) is the standard deviation of the logarithm of a size about the usual one, zero of one that is known, infinite
+    of one that is mostly zero (half-Cauchy).
     """
 
     described: tuple[Process, ...]
@@ -63,11 +63,16 @@ class Processes:
     usual: Vector
     spread: Vector
 
+    @property
+    def known(self) -> NDArray[np.bool_]:
+        """Which (m,) have their usual size and no other."""
+        return self.spread == 0.0
+
     def prior(self, variances: Vector) -> tuple[float, Vector, Vector]:
         """-2 ln of the prior of the sizes, and its first and second derivatives (m,) along the variances."""
         away = np.log(variances / self.usual**2)
         about = np.isfinite(self.spread)
-        s = np.where(about, 2.0 * self.spread, 1.0) ** 2
+        s = np.where(self.known | ~about, 1.0, 2.0 * self.spread) ** 2
         # Half-Cauchy on the size: mostly none, with a tail that lets a broken isotherm be as odd as it is.
         value = np.where(about, away**2 / s, 2.0 * np.log1p(variances / self.usual**2))
         rare = 2.0 / (self.usual**2 + variances)

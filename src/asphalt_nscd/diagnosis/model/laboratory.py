@@ -26,7 +26,6 @@ OF_FEW = (
     "specimen times",
 )  # of which a table holds so few that one at fault enlarges them
 FEW = 2
-KNOWN = 0.2  # standard deviation of the logarithm of their size, once it is that of the others
 
 
 @dataclass(frozen=True)
@@ -74,7 +73,7 @@ def of_laboratory(found: Processes) -> NDArray[np.bool_]:
 
 
 def without_one(found: Processes, fitted: Fitted, variances: Vector) -> Processes:
-    """The processes with sizes of OF_FEW as they are with one isotherm or specimen free, which may be at fault."""
+    """The processes with sizes of OF_FEW known: those with one isotherm or specimen free, which may be at fault."""
     model, usual, spread = likelihood.reduce(found, fitted), found.usual.copy(), found.spread.copy()
     for k, one in enumerate(found.described):
         columns = np.flatnonzero(found.block == k)
@@ -84,7 +83,7 @@ def without_one(found: Processes, fitted: Fitted, variances: Vector) -> Processe
                 likelihood.estimate(model, free.column(at), variances).variances[k]
                 for at in range(columns.size)
             )
-            usual[k], spread[k] = np.sqrt(min(each)), KNOWN
+            usual[k], spread[k] = np.sqrt(min(each)), 0.0
     return replace(found, usual=usual, spread=spread)
 
 

@@ -122,6 +122,7 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
     usual = model.processes.usual
     # On ln v variances stay above zero, and steps by orders of magnitude are short.
     log_v = np.log(usual**2 if start is None else np.maximum(start, LEAST))
+    log_v[model.processes.known] = np.log(usual[model.processes.known] ** 2)
     now = _point(model, cause, log_v)
     # SQUAREM: two multiplicative steps, then a long one along both, taken back where it does not gain
     for _ in range(ITERATIONS):
@@ -136,7 +137,8 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
         # Written so that a NaN too is taken back.
         if not trial.objective <= middle.objective:
             far, trial = second, _point(model, cause, second)
-        if not np.isfinite(trial.objective):
+        # A narrow prior may make a step overshoot.
+        if not trial.objective <= now.objective:
             break
         gained, log_v, now = now.objective - trial.objective, far, trial
         if gained < CONVERGED:
@@ -180,7 +182,7 @@ def _curvature(model: Reduced, cause: Direction, variances: Vector) -> tuple[NDA
     gradient = np.bincount(block, np.diag(left) - pull**2, m) + slope
     second = member.T @ (2.0 * pull[:, None] * left * pull - left**2) @ member
     second[range(m), range(m)] += gradient / variances + bend
-    along = -variances * np.bincount(block, sensed * pull, m) / information
+    along = np.where(found.known, 0.0, -variances * np.bincount(block, sensed * pull, m) / information)
     return variances[:, None] * second * variances, along
 
 
@@ -229,7 +231,7 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
     square = np.bincount(block, pull**2, m) + np.maximum(-slope, 0.0)
     # the multiplicative step keeps variances positive; its power of a half makes it monotone (minorise-
     # maximise)
-    step = 0.5 * np.log(np.maximum(square, 1e-12) / trace)
+    step = np.where(found.known, 0.0, 0.5 * np.log(np.maximum(square, 1e-12) / trace))
     return _Point(misfit + interval, misfit, step, amplitude, std_error)
 
 
