@@ -191,7 +191,7 @@ def conclude(
     orders += fixed_orders.strains(observed, Costs(), content["excess_phase"])[: MOST - len(orders)]
     progress("Diagnose", 5, STEPS)
     standard = reported.standard_values(mix, law)
-    content["reported"] = standard.drop(columns="averaged_over").iloc[0].to_dict()
+    content["reported"] = standard.drop(columns=["asked_by", "averaged_over"]).iloc[0].to_dict()
     content["provenance"] = {
         **provenance(),
         "measurements": given.name,

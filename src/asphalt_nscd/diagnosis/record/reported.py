@@ -21,6 +21,7 @@ EN_12697_26 = (15.0, 10.0)  # degC, Hz
 # AASHTO R 84, the input of MEPDG programs.
 R_84_CELSIUS = (-10.0, 4.4, 21.1, 37.8, 54.4)
 R_84_HERTZ = (25.0, 10.0, 5.0, 1.0, 0.5, 0.1)
+TESTS, R_84 = "the tests", "AASHTO R 84"  # in the column `asked_by`
 NEAR = 2.0  # K beyond the tests, and the factor of their reduced frequencies, that is no extrapolation
 IN_A_DECADE = 8  # points of the master curve
 
@@ -61,13 +62,20 @@ def table_of(temperature: Vector, frequency: Vector, ends: tuple[Complex, Comple
 
 
 def standard_values(mix: Mixture, law: LawOfMix | None) -> pd.DataFrame:
-    """E* of the mix with 95 % intervals at 15 degC and 10 Hz (EN 12697-26), and over the grid of AASHTO R 84.
+    """E* of the mix with 95 % intervals: for EN 12697-26, over the grid of AASHTO R 84, and where tests were made.
 
     Beyond the tests the free curve knows no mix: there the law of law.json holds with its priors and its band, or
     nothing but the first row.
     """
-    conditions = [EN_12697_26, *((t, f) for t in R_84_CELSIUS for f in R_84_HERTZ)]
-    temperature, frequency = np.array(conditions).T
+    tests = sorted(set(zip(mix.tests.isotherm.tolist(), mix.tests.frequency.tolist(), strict=True)))
+    asked = {
+        "EN 12697-26": [EN_12697_26],
+        R_84: [(t, f) for t in R_84_CELSIUS for f in R_84_HERTZ],
+        TESTS: [(t, f) for t, f in tests],
+    }
+    temperature, frequency = np.array(
+        [condition for conditions in asked.values() for condition in conditions]
+    ).T
     there, known = tested(mix, temperature, frequency), None if law is None else law.uncertainty
     free = mix_modulus(mix, temperature, frequency)
     if law is not None and known is not None:
@@ -76,7 +84,8 @@ def standard_values(mix: Mixture, law: LawOfMix | None) -> pd.DataFrame:
         taken, beyond = there | (np.arange(there.size) == 0), (np.full(there.size, np.nan + 1j * np.nan),) * 3
     one, low, high = (np.where(taken, *pair) for pair in zip(free, beyond, strict=True))
     table = table_of(temperature, frequency, (one, low, high))
-    return table.assign(within_the_tests=there, averaged_over=averaged_over(mix))
+    asked_by = np.repeat(list(asked), [len(conditions) for conditions in asked.values()])
+    return table.assign(within_the_tests=there, asked_by=asked_by, averaged_over=averaged_over(mix))
 
 
 def law_with_band(

@@ -14,6 +14,7 @@ from fpdf import FPDF
 from fpdf.fonts import FontFace
 
 from asphalt_nscd.diagnosis.content import DOUBTFUL, HELD_BACK, LEFT_OUT
+from asphalt_nscd.diagnosis.record.reported import R_84, TESTS
 from asphalt_nscd.diagnosis.words.answer import Words
 from asphalt_nscd.diagnosis.words.facts import by_isotherm
 from asphalt_nscd.diagnosis.words.sentences import numbers
@@ -121,8 +122,12 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
         "possible ones by their probability. Line and band: the law below, which has few parameters."
     )
     pdf.picture(*_pictures(folder, content))
-    pdf.heading("|E*| in MPa and phase in ° over temperature and frequency")
-    _grid(pdf, pd.read_csv(folder / "reported.csv"))
+    reported = pd.read_csv(folder / "reported.csv")
+    axial = content["reading"]["test_type"] == "tension-compression"
+    for asked_by, where in {TESTS: "where tests were made", R_84: f"for {R_84}"}.items():
+        if asked_by == TESTS or axial:
+            pdf.heading(f"|E*| in MPa and phase in ° {where}")
+            _grid(pdf, reported[reported["asked_by"] == asked_by])
     pdf.heading("What was found")
     pdf.rows(_findings(content, FINDINGS), (1.0, 4.0), first_row_as_headings=False)
     pdf.heading("What was left out or is in doubt, and why")
@@ -167,11 +172,10 @@ def _pictures(folder: Path, content: Mapping[str, Any]) -> list[Any]:
 
 
 def _grid(pdf: _Report, table: pd.DataFrame) -> None:
-    """Moduli with intervals at the conditions of AASHTO R 84; a star where no test was made near."""
-    table = table.iloc[1:]  # the first stands above
+    """Moduli with intervals, a row for each frequency; a star where no test was made near."""
     table = table.assign(cell=[_interval(row) for row in table.itertuples()])
-    cells = table.pivot(index="frequency_Hz", columns="temperature_C", values="cell")
-    lines = [[f"{f:g}", *cells.loc[f]] for f in table["frequency_Hz"].unique()]
+    cells = table.pivot(index="frequency_Hz", columns="temperature_C", values="cell").fillna("")
+    lines = [[f"{f:g}", *cells.loc[f]] for f in cells.index[::-1]]
     pdf.set_font(FONT, size=7.0)
     look = {"text_align": "CENTER", "line_height": 3.6, "padding": 0.0}
     pdf.rows([["Hz", *map(celsius, cells)], *lines], (0.6, *[1.4] * cells.shape[1]), **look)
