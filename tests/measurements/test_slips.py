@@ -126,6 +126,18 @@ def test_frequencies_of_one_sweep_in_reverse_order(frequencies):
     assert not list(slips(table))
 
 
+def test_one_frequency_ten_times_what_every_other_sweep_has():
+    table = campaign()
+    row = table.index[(table["specimen"] == "B") & (table["frequency_Hz"] == 25.0)][2]
+    table.loc[row, "frequency_Hz"] = 250.0
+    (told,) = slips(table)
+    assert told.startswith("specimen B at 21 degC has 250 Hz, which no other sweep has, and lacks 25 Hz")
+    # A frequency more, or one in place of another that is no slip of the point, is a laboratory's choice.
+    table.loc[row, "frequency_Hz"] = 20.0
+    assert not list(slips(table))
+    assert not list(slips(pd.concat([campaign(), campaign().loc[[row]].assign(frequency_Hz=250.0)])))
+
+
 def test_exchanged_isotherms_of_one_specimen():
     table = campaign()
     table.loc[table["specimen"] == "B", "temperature_C"] = table["temperature_C"].replace(

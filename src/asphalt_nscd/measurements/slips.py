@@ -47,6 +47,7 @@ COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
 def slips(table: pd.DataFrame) -> Iterator[str]:
     """A sentence with the mend for each slip of a unit or a label; most tables have none."""
     yield from units_of_labels(table)
+    yield from _lonely_frequencies(table)
     yield from _order_of_frequencies(table)
     yield from _radians(table)
     yield from _complements(table)
@@ -78,6 +79,23 @@ def units_of_labels(table: pd.DataFrame) -> Iterator[str]:
             f"the frequencies {_listed(frequency)} are 2 pi times {_listed(turns)}: they look like "
             "rad/s; divide them by 2 pi, or name their column (in an export, their line) 'omega (rad/s)'."
         )
+
+
+def _lonely_frequencies(table: pd.DataFrame) -> Iterator[str]:
+    """A frequency in one test of the table, ten or a hundred times the one that its sweep alone lacks."""
+    sweeps = table.groupby(["specimen", "temperature_C"])["frequency_Hz"].agg(set)
+    for (specimen, temperature), own in sweeps.items() if len(sweeps) >= LEAST else ():
+        others = list(sweeps.drop(index=(specimen, temperature)))
+        alone, lacking = own.difference(*others), set.intersection(*others) - own
+        if len(alone) != 1 or len(lacking) != 1:
+            continue
+        (lonely,), (usual,) = alone, lacking
+        decades = np.log10(lonely / usual)
+        if round(decades) and np.isclose(decades, round(decades)):
+            yield (
+                f"{specimen_named(str(specimen))} at {temperature:g} degC has {lonely:g} Hz, which no other sweep has, "
+                f"and lacks {usual:g} Hz, which every other has: correct the frequency."
+            )
 
 
 def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
