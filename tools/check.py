@@ -46,6 +46,7 @@ PUBLISHED = (
     "benchmark",
     "calls",
     "cluster",
+    "excess",
     "fall",
     "fatigue",
     "faults",

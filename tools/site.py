@@ -27,6 +27,7 @@ PAGES = {
     "data/tutorial/README.md": "data-of-the-tutorial.md",
     "data/ncat/README.md": "data-of-ncat.md",
     "data/mixes50/README.md": "data-of-mixes50.md",
+    "data/forecast/README.md": "data-of-forecast.md",
     "plugins/README.md": "plugins.md",
 }
 MODULES = ROOT / "src/asphalt_nscd"
