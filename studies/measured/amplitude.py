@@ -29,7 +29,7 @@ UNLIKELY = 2.0  # standard errors
 def predictions(mechanisms: Mechanisms) -> dict[str, complex]:
     """Change of ln E* by PER in tension-compression."""
     of = mechanisms.contact
-    pulled = of[(of["haversine"] == 0)].sort_values("amplitude_1e6")
+    pulled = of[(of["haversine"] == 0) & (of["amplitude_1e6"] > 70.0)].sort_values("amplitude_1e6")
     change = (pulled["lnE"] + 1j * np.radians(pulled["change_deg"])).diff().iloc[-1]
     contacts = change / (SEVERAL[1] - SEVERAL[0]) * PER
     softening = mechanisms.softening(np.array([MIX]), PER, "pulled")[0]

@@ -1,62 +1,82 @@
 """What grains that touch, open and slip do to a haversine test, in a small cylinder of poured stones.
 
 Films between neighbours follow one power law; stiff enough, they and the stones have the |E*| of a mix, and some phase,
-while all contacts stick. Nothing is fitted: pressure, friction and amplitudes are stated. The answer is ln of what is
-read over what would be read if no contact slipped.
+while all contacts stick. Nothing is fitted: pressure, friction, amplitudes and Poisson's ratio are stated. The answer
+is ln of what is read over what would be read if no contact slipped. Beside it stand the same contacts, each moved as
+the mean strain of the test says: a cell without a network.
 """
 
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
-from typing import Any
+from itertools import product
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
+from scipy.sparse.linalg import spsolve
 
 import asphalt_nscd as an
 from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.bending.condensing import condensed
-from asphalt_nscd.bending.cycles import run_cycles, skeleton_of, stuck_stiffness
+from asphalt_nscd.bending.cycles import CyclicTest, run_cycles, skeleton_of, stuck_stiffness
 from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.store import Record, write_table
 from asphalt_nscd.measurements.tension import AMPT
 from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.stepping.skeleton import Grip, Skeleton
 from asphalt_nscd.rheology.as_run import Programme, modulus_as_read
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from studies.measured.cylinder import BOX, SPHERES
-from studies.measured.stated import AMPLITUDES, SEVERAL
+from studies.measured.stated import AMPLITUDES, SEVERAL, SHEAR
 
 SHARE = 0.38  # of the volume of a cylinder of full size: some 500 stones
-MODULI = 300e6, 500e6, 900e6, 1.8e9, 4e9, 9e9, 20e9  # Pa, of mixes of both populations but the softest
+MODULI = 300e6, 900e6, 1.8e9, 4e9, 20e9  # Pa, of mixes of both populations but the softest
 EXPONENTS = 0.1, 0.3, 0.6  # of the films, over frequency
-USUAL = 10e3, 0.5  # pressure on the stones [Pa] and their friction
-DOUBTS = (1e3, 0.5), (100e3, 0.5), (10e3, 0.3)
 HAVERSINE = Programme(haversine=True, cycles=6, read=3, drift=True, samples=24)
 PULLED = replace(HAVERSINE, haversine=False)
+SHEARS = 1.0, 0.3, 0.1, 0.03, 0.01
 FREQUENCY = 1.0  # Hz; another changes nothing but the scale of time
 OMEGA = 2.0 * np.pi * FREQUENCY
 FILM = 1e9  # Pa, |E*| of films before they are made stiffer
-Test = tuple[float, float, float, Programme, tuple[float, float]]
 
 
-def stones() -> Model:
-    """The cylinder, bonded by facets: its films alone show their own law."""
+class Test(NamedTuple):
+    """A mix of this |E*| [Pa] with its contacts stuck, the exponent of its films, and how it is tested.
+
+    `shear`: stiffness of films in shear over that normal to them.
+    """
+
+    modulus: float
+    exponent: float
+    amplitude: float  # of strain
+    programme: Programme = HAVERSINE
+    shear: float = SHEAR
+    pressure: float = 10e3  # Pa, on the stones
+    friction: float = 0.5
+
+
+def stones() -> dict[float, Model]:
+    """The cylinder, bonded by facets, by the ratio of stiffness in shear."""
     side = SHARE ** (1.0 / 3.0)
     spheres = {size: round(SHARE * count) for size, count in SPHERES.items()}
     box = BOX[0] * side, BOX[1] * side, BOX[2] * side
     packing = an.pour(spheres, box, vibration=an.Vibration(duration=0.0), seed=1)
     shape = replace(AMPT, d=AMPT.d * side, h=AMPT.h * side, mass=AMPT.mass * SHARE)
-    specimen = an.specimen(packing, shape.keys(), area="facets")
-    return model_of(Record(*condensed(specimen.bonded, "stones", Bonds(), stand_by=0), ""))
+    bonded = an.specimen(packing, shape.keys(), area="facets").bonded
+    return {
+        shear: model_of(Record(*condensed(bonded, "stones", Bonds(kt_over_kn=shear), stand_by=0), ""))
+        for shear in sorted({test.shear for test in tests()})
+    }
 
 
 def row(model: Model, test: Test) -> dict[str, float]:
-    """One test of a mix of this |E*| [Pa] with its contacts stuck, exponent, amplitude of strain."""
-    modulus, exponent, amplitude, programme, pressed = test
-    law, skeleton = bond_law(_power_law(FILM, exponent, 0.0, programme)), skeleton_of(model, *pressed)
+    """What a test reads, and what the same contacts do where grains follow the mean strain."""
+    law = bond_law(_power_law(FILM, test.exponent, 0.0, test.programme))
+    skeleton = skeleton_of(model, test.pressure, test.friction)
     size = model.geometry.form_factor()
 
     def films(stiffer: float) -> BondedSystem:
@@ -65,23 +85,68 @@ def row(model: Model, test: Test) -> dict[str, float]:
     def shown(stiffer: float) -> float:
         return size * abs(stuck_stiffness(films(stiffer), law, skeleton, OMEGA))
 
-    system = films(_stiffening(shown, modulus))
+    system = films(_stiffening(shown, test.modulus))
     stuck = stuck_stiffness(system, law, skeleton, OMEGA)
-    force = abs(stuck) * amplitude * model.geometry.h
-    ran = run_cycles(system, law, skeleton, FREQUENCY, force, programme)
-    change = np.log(ran.stiffness / stuck) - log_read_alone(stuck, exponent, programme)
+    force = abs(stuck) * test.amplitude * model.geometry.h
+    ran = run_cycles(system, law, skeleton, FREQUENCY, force, test.programme)
+    change = np.log(ran.stiffness / stuck) - log_read_alone(stuck, test.exponent, test.programme)
+    own = stuck * (np.exp(change) - 1.0) / _parts(stuck, test.exponent)[1]
+    poisson = poisson_ratio(model, system, law, skeleton)
+    affine = followed(model, skeleton, poisson, ran, test.programme)
     return {
         "E_MPa": size * abs(stuck) / 1e6,
-        "exponent": exponent,
-        "amplitude_1e6": 1e6 * amplitude,
-        "haversine": int(programme.haversine),
-        "pressure_kPa": pressed[0] / 1e3,
-        "friction": pressed[1],
+        "exponent": test.exponent,
+        "amplitude_1e6": 1e6 * test.amplitude,
+        "haversine": int(test.programme.haversine),
+        "shear": test.shear,
+        "pressure_kPa": test.pressure / 1e3,
+        "friction": test.friction,
+        "poisson": poisson,
         "phase_deg": float(np.degrees(np.angle(stuck))),
         "lnE": float(change.real),
         "change_deg": float(np.degrees(change.imag)),
+        "gain_percent": 100.0 * own.real,
+        "loss_percent": 100.0 * own.imag,
+        "cell_gain_percent": 100.0 * affine.real,
+        "cell_loss_percent": 100.0 * affine.imag,
         "energy_error": float(1.0 - ran.taken / ran.work),
     }
+
+
+def poisson_ratio(model: Model, system: BondedSystem, law: Any, skeleton: Skeleton) -> float:
+    """Sideways over axial strain of the middle half of the stones, pressed slowly with their contacts stuck."""
+    weight = system.weight * abs(law.discrete_modulus(OMEGA, 0.0))
+    weight[skeleton.rows] += skeleton.stiffness(skeleton.overlap)
+    matrix = system.stiffness(weight).tocsc()
+    moved = np.zeros(matrix.shape[0])
+    moved[system.driven] = 1.0
+    moved[system.free] = -spsolve(matrix[system.free][:, system.free], (matrix @ moved)[system.free])
+    place = model.shape["position_m"][: model.spheres]
+    middle = np.abs(place[:, 2] - 0.5 * model.geometry.h) < 0.25 * model.geometry.h
+    motion = moved[: 6 * model.spheres].reshape(-1, 6)[:, :3]
+    known = np.column_stack([np.ones(middle.sum()), place[middle]])
+    strain = np.diag(np.linalg.lstsq(known, motion[middle], rcond=None)[0][1:])
+    return float(-strain[:2].mean() / strain[2])
+
+
+def followed(
+    model: Model, skeleton: Skeleton, poisson: float, ran: CyclicTest, programme: Programme
+) -> complex:
+    """Change of the stiffness of contacts over what it is stuck, grains moved as the strain of a test says."""
+    first, second = (model.shape[end][skeleton.bonds] for end in ("first", "second"))
+    apart = model.shape["position_m"][second] - model.shape["position_m"][first]
+    strain = np.array([poisson, poisson, -1.0])
+    length = np.linalg.norm(apart, axis=1)
+    along = (apart**2 @ strain) / length
+    across = np.sqrt(np.maximum(((apart * strain) ** 2).sum(axis=1) - along**2, 0.0))
+    opening = np.column_stack([along, across, 0.0 * along]).ravel()
+    grip, force = Grip.rest(skeleton), np.zeros_like(ran.displacement)
+    pressed = ran.displacement / model.geometry.h
+    for step, size in enumerate(pressed):
+        reaction, grip = grip.moved(skeleton, size * opening)
+        force[step] = -reaction @ opening
+    stuck = skeleton.stiffness(skeleton.overlap) @ opening**2
+    return programme.phasor(force, ran.angle) / programme.phasor(pressed, ran.angle) / stuck - 1.0
 
 
 def _stiffening(shown: Any, modulus: float) -> float:
@@ -104,10 +169,15 @@ def log_read_alone(stiffness: complex, exponent: float, programme: Programme) ->
 
     A haversine from rest leaves an error of the drift's bend that is not the contacts'.
     """
-    films = stiffness.imag / np.sin(0.5 * np.pi * exponent)
-    springs = stiffness.real - films * np.cos(0.5 * np.pi * exponent)
+    films, springs = _parts(stiffness, exponent)
     chain = _power_law(films, exponent, springs, programme)
     return complex(np.log(modulus_as_read(chain, [FREQUENCY], programme)[0] / stiffness))
+
+
+def _parts(stiffness: complex, exponent: float) -> tuple[float, float]:
+    """Norm of the films' share of a stiffness, and the springs beside it."""
+    films = stiffness.imag / np.sin(0.5 * np.pi * exponent)
+    return films, stiffness.real - films * np.cos(0.5 * np.pi * exponent)
 
 
 def _power_law(films: float, exponent: float, springs: float, programme: Programme) -> KelvinChain:
@@ -120,24 +190,24 @@ def _power_law(films: float, exponent: float, springs: float, programme: Program
 
 
 def tests() -> Iterator[Test]:
-    """What is simulated: the grid of both populations, several amplitudes, and doubts about pressure and friction."""
-    for amplitude in AMPLITUDES.values():
-        for modulus in MODULI:
-            for exponent in EXPONENTS:
-                yield modulus, exponent, amplitude, HAVERSINE, USUAL
-    for programme in (HAVERSINE, PULLED):
-        for amplitude in SEVERAL:
-            yield 6e9, 0.3, amplitude, programme, USUAL
-    for pressed in DOUBTS:
-        for modulus in (900e6, 4e9):
-            yield modulus, 0.3, AMPLITUDES["ncat"], HAVERSINE, pressed
+    """What is simulated: the grid of both populations, several amplitudes, and what may decide the answer."""
+    for amplitude, modulus, exponent in product(AMPLITUDES.values(), MODULI, EXPONENTS):
+        yield Test(modulus, exponent, amplitude)
+    for amplitude in SEVERAL:
+        yield Test(6e9, 0.3, amplitude, PULLED)
+    usual = Test(900e6, 0.3, AMPLITUDES["ncat"])
+    for shear in SHEARS:
+        yield usual._replace(shear=shear)
+        yield usual._replace(shear=shear, programme=PULLED)
+    for other in ({"pressure": 1e3}, {"pressure": 100e3}, {"friction": 0.3}):
+        yield usual._replace(**other)
 
 
 def run(job: Any) -> None:
     """contacts.csv."""
-    model, asked = stones(), list(tests())
+    models, asked = stones(), list(dict.fromkeys(tests()))
     with ProcessPoolExecutor(job.threads) as pool:
-        rows = list(pool.map(row, [model] * len(asked), asked))
+        rows = list(pool.map(row, [models[test.shear] for test in asked], asked))
     write_table(job.output[0], pd.DataFrame(rows))
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.diagnosis.screening.kramers_kronig import required_phase
+from studies.measured.stated import SHEAR
 
 Vector = np.ndarray
 NAMES = "contacts", "binder", "clock"
@@ -23,9 +24,10 @@ class Mechanisms:
         self.contact, self.binder, self.clock = (pd.read_csv(getattr(tables, name)) for name in NAMES)
 
     def usual(self, amplitude: float) -> pd.DataFrame:
-        """Haversines of this amplitude of strain under the stated pressure and friction."""
+        """Haversines of this amplitude of strain, with the stated films, pressure and friction."""
         of = self.contact
         stated = (of["haversine"] == 1) & (of["pressure_kPa"] == 10.0) & (of["friction"] == 0.5)
+        stated &= np.isclose(of["shear"], SHEAR)
         return of[stated & np.isclose(of["amplitude_1e6"], 1e6 * amplitude)]
 
     def contacts(self, modulus: Vector, amplitude: float) -> Vector:
