@@ -45,26 +45,6 @@ rule measured_softening:
         "../../studies/measured/softening.py"
 
 
-rule measured_first:
-    """How far both lie from what was first predicted, of other stones, before they were laid beside a mix."""
-    input:
-        **MECHANISMS,
-        first=[f"studies/measured/predictions/{name}.csv" for name in MECHANISMS],
-        code=studied("measured.first"),
-    output:
-        "results/measured/first.csv",
-    log:
-        "results/measured/logs/first.log",
-    benchmark:
-        "<results>/benchmarks/measured_first.tsv"
-    conda:
-        ENVIRONMENT
-    message:
-        "Lay the mechanisms beside their first prediction"
-    script:
-        "../../studies/measured/first.py"
-
-
 rule measured_amplitude:
     """What a larger strain does, measured by two laboratories and predicted."""
     input:
@@ -168,6 +148,32 @@ rule fig_excess:
         "../../studies/measured/fig_excess.py"
 
 
+# A program of trials/, whose modules are beside it.
+TRIAL = f"env PYTHONPATH={CLONE / 'trials'}:${{PYTHONPATH-}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m"
+
+
+rule drawn_excess:
+    """Whether the excess phase of tables without one is none, and whether its interval says so. Three minutes."""
+    input:
+        code=code("diagnose", *modules_of("diagnosis.causes")),
+        generator=[f"trials/{name}.py" for name in ("excess", "attack/laboratory", "attack/mixes")],
+    output:
+        rows="results/excess/excess.csv",
+        summary="results/excess/summary.csv",
+    log:
+        "results/excess/logs/excess.log",
+    benchmark:
+        "<results>/benchmarks/drawn_excess.tsv"
+    conda:
+        ENVIRONMENT
+    params:
+        program=f"{TRIAL} excess 200 --folder results/excess",
+    message:
+        "Find the excess phase of 200 tables that have none"
+    shell:
+        "{params.program} > {log} 2>&1"
+
+
 rule reported_intervals:
     """Whether the intervals of what is reported hold the mix, where it was not tested too. Ten minutes."""
     input:
@@ -184,7 +190,7 @@ rule reported_intervals:
     conda:
         ENVIRONMENT
     params:
-        program=f"env PYTHONPATH={CLONE / 'trials'}:${{PYTHONPATH-}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m extrapolation",
+        program=f"{TRIAL} extrapolation",
         size="10 100 --seed 20281128",
     message:
         "Diagnose campaigns of three temperatures, and hold what is reported against their mixes"
@@ -192,11 +198,12 @@ rule reported_intervals:
         "{params.program} {params.size} --measured {input.measured} --folder results/intervals > {log} 2>&1"
 
 
+RECORDED["excess"] = ("excess", ["excess.csv", "summary.csv"])
 RECORDED["intervals"] = ("intervals", ["grid.csv", "summary.csv"])
 RECORDED["measured"] = (
     "measured",
     [
         *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png"),
-        *("amplitude.csv", "contacts.csv", "binder.csv", "clock.csv", "first.csv"),
+        *("amplitude.csv", "contacts.csv", "binder.csv", "clock.csv"),
     ],
 )

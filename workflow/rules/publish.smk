@@ -62,9 +62,12 @@ PUBLISHED = {
         "measured",
         [
             *("ladder.csv", "means.csv", "excess.csv", "budget.csv", "figures/fig_excess.png", "provenance.json"),
-            *("amplitude.csv", "contacts.csv", "binder.csv", "clock.csv", "first.csv"),
+            *("amplitude.csv", "contacts.csv", "binder.csv", "clock.csv"),
         ],
         {"measured_means": "means.csv", "excess_budget": "budget.csv", "measured_amplitude": "amplitude.csv"},
+    ),
+    "publish_excess": Published(
+        "excess", ["excess.csv", "summary.csv", "provenance.json"], {"drawn_excess": "summary.csv"}
     ),
     "publish_intervals": Published(
         "intervals", ["grid.csv", "summary.csv", "provenance.json"], {"intervals": "summary.csv"}

@@ -145,6 +145,7 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
         ),
     ],
     "nonlinear": [Layout(_CRITERIA)],
+    "drawn_excess": [Layout(_CRITERIA)],
     "power": [
         Layout(
             {
@@ -161,7 +162,13 @@ BLOCKS: dict[str, list[Layout | Notes | Rungs | Crossed]] = {
     "machines": [Layout(_CRITERIA, where={"met": ("yes", "no")})],
     "machine_measured": [
         Layout(
-            {"where": "where", "value": "value", "std_error": "standard error"},
+            {
+                "cause": "shared",
+                "where": "where",
+                "value": "value",
+                "std_error": "standard error",
+                "unit": "unit",
+            },
             where={
                 "where": (
                     "all campaigns",
