@@ -66,7 +66,8 @@ class Job:
     def look(self, wait: float = 0.0) -> str:
         """Take what the process said, waiting `wait` [s]; returns running, done, failed or cancelled."""
         with self._lock:
-            while self.state == "running" and self._pipe.poll(wait):
+            late = time.monotonic() > self._until
+            while self.state == "running" and self._pipe.poll(0.0 if late else wait):
                 try:
                     kind, content = self._pipe.recv()
                 except EOFError:
@@ -77,7 +78,7 @@ class Job:
                 else:
                     self.state, self.result = kind, content
                     self._process.join(5.0)
-            if self.state == "running" and time.monotonic() > self._until:
+            if self.state == "running" and late:
                 self.stop("failed", TOO_LONG)
             return self.state
 
