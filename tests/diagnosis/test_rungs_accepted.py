@@ -8,11 +8,16 @@ import numpy as np
 import pytest
 from test_joint import CAUSES, LAW, fit, table  # noqa: F401  fixtures
 
+from asphalt_nscd.diagnosis.model import fit_beside, laboratory
 from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.search import ladder
 from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung
 
 DRAWS = 500
+
+
+def begin(joint, fitted):
+    return fit_beside.begin(laboratory.alone(joint), fitted)
 
 
 def redrawn(joint, fitted, seed, effect=0.0):
@@ -89,9 +94,9 @@ def test_a_ladder_climbs_to_what_was_put_in_and_no_further(fit):  # noqa: F811
     joint, fitted = fit
     catalogue = [CAUSES[name] for name in ("phase_offset", "channel_delay", "specimen_geometry")]
     base = redrawn(joint, fitted, 3)
-    assert not ladder.climb(*base, catalogue, DRAWS, 0).rungs
+    assert not ladder.climb(begin(*base), catalogue, DRAWS, 0).rungs
     late = 1j * joint.observed.omega * 3e-4
-    found = ladder.climb(*redrawn(joint, fitted, 3, late), catalogue, DRAWS, 0)
+    found = ladder.climb(begin(*redrawn(joint, fitted, 3, late)), catalogue, DRAWS, 0)
     assert [rung.candidate.cause.name for rung in found.rungs] == ["channel_delay"]
     assert found.rungs[0].candidate.values[0] == pytest.approx(3e-4, abs=3e-5)
     assert found.rungs[0].p_value < 0.005

@@ -84,7 +84,7 @@ class Ladder:
     def fitted(self) -> Fitted:
         """The last fit as it is without faults of one place, which are told and stay in the tests."""
         if self.end is None:
-            return self.start
+            return self.rungs[-1].after if self.rungs else self.start
         at = self.end.fitted
         named = tuple(one for one in at.active if not one.cause.told)
         return at if named == at.active else self.end.wide.linearise(at.law, at.scales, named)
