@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 from rows import Clock, absent, run, write_rows
 
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.specimen.counts import read_counts
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
@@ -29,7 +30,7 @@ HERE = Path(__file__).parent
 def pour(position: np.ndarray, radius: np.ndarray) -> tuple[dict[str, object], np.ndarray]:
     """(row, positions at rest) by NSCD."""
     clock, numerics = Clock(), PouringNumerics.of(radius, 4e-4)
-    bed = GranularBed.spheres_in_box(position, radius, BOX, DENSITY, FRICTION)
+    bed = GranularBed.spheres_in_box(position, radius, BOX, DENSITY, ContactLaw(FRICTION, FRICTION))
     bed.let_fall()
     while bed.time < DURATION:
         bed.advance(numerics)

@@ -9,14 +9,19 @@ published. Then the checksums of all that is published. The first difference of 
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
-from asphalt_nscd.reporting.compare import first_difference
+import pandas as pd
+
 from asphalt_nscd.reporting.publish import altered
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -55,6 +60,7 @@ PUBLISHED = (
     "rigs",
     "verification",
 )
+VOLATILE = ("provenance",)  # of a run, not of its result
 TAKEN = ("simulations.csv", "likely.csv", "facets.csv", "extended.csv")  # of full simulations
 
 
@@ -91,6 +97,41 @@ def _made_again(published: Path, folder: Path) -> list[str]:
         first_difference(published / name, results / name, tolerance) for name, tolerance in REDONE.items()
     )
     return [difference for difference in differences if difference]
+
+
+def first_difference(published: Path, redone: Path, tolerance: float) -> str | None:
+    """Where two tables or JSON files first differ by more than a relative tolerance; None if nowhere."""
+    if not redone.is_file():
+        return f"{published}: was not made again"
+    before, after = (dict(_numbers(path)) for path in (published, redone))
+    for place in [*before, *(place for place in after if place not in before)]:
+        old, new = before.get(place, "nothing"), after.get(place, "nothing")
+        # Absolute too: a zero may come out as 1e-17 on another processor.
+        both = isinstance(old, float) and isinstance(new, float)
+        if old != new and not (both and math.isclose(old, new, rel_tol=tolerance, abs_tol=1e-12)):
+            return f"{published}: {place} is {old}, made again {new}"
+    return None
+
+
+def _numbers(path: Path) -> Iterator[tuple[str, Any]]:
+    """Each value of a file, by its place."""
+    if path.suffix == ".json":
+        yield from _leaves(json.loads(path.read_text(encoding="utf-8")), "")
+        return
+    for name, column in pd.read_csv(path, dtype=str, keep_default_na=False).items():
+        for row, text in enumerate(column):
+            number = pd.to_numeric(text, errors="coerce")
+            yield f"{name} in line {row + 2}", text if pd.isna(number) else float(number)
+
+
+def _leaves(content: Any, place: str) -> Iterator[tuple[str, Any]]:
+    if isinstance(content, dict | list):
+        for key, item in content.items() if isinstance(content, dict) else enumerate(content):
+            if key not in VOLATILE:
+                yield from _leaves(item, f"{place}.{key}".lstrip("."))
+    else:
+        # 1 and 1.0 are one number, whichever of the two JSON has.
+        yield place, float(content) if isinstance(content, int) else content
 
 
 def _checksums(folder: Path) -> list[str]:

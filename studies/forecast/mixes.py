@@ -134,6 +134,7 @@ def _forecasts(pairs: list[Pair]) -> dict[str, tuple[int, Callable[[Pair], np.nd
         "forecast without skeleton": (0, partial(made, settings=Settings(pressure=0.0))),
         FORECAST: (0, made),
         f"aggregate {PRINTED.modulus / 1e9:.0f} GPa, as the source prints": (0, partial(made, stone=PRINTED)),
+        "that, and a gap of 100 nm": (0, partial(made, stone=PRINTED, settings=Settings(gap=100e-9))),
         f"no recipe: measured map of binder to mix of {HOT}": (0, lambda pair: own(pair.binder())),
         f"that map, and {WARM[0]} binders {abs(later):.2f} decades {'stiffer' if later > 0.0 else 'softer'}": (
             1,

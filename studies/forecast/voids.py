@@ -28,7 +28,7 @@ RIVALS = {"hirsch": hirsch, "witczak": witczak}
 
 
 @dataclass(frozen=True)
-class _AnyBinder:
+class AnyBinder:
     """Stands for a law: BINDER, whatever the frequency."""
 
     def complex_modulus(self, omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
@@ -95,7 +95,7 @@ def _surfaces(section: pd.DataFrame, recipe: Recipe) -> dict[str, np.ndarray]:
         ((100.0 - section["VMA_pct"]) / (100.0 - section["Va_pct"])).mean()
     )  # of the volume without air
     per_stone = (1.0 - stone) / stone * recipe.binder_density / recipe.aggregate_density
-    own = replace(recipe, binder_share=per_stone / (1.0 + per_stone), binder=cast(BinderLaw, _AnyBinder()))
+    own = replace(recipe, binder_share=per_stone / (1.0 + per_stone), binder=cast(BinderLaw, AnyBinder()))
     surfaces: dict[str, list[np.ndarray]] = {name: [] for name in ("forecast", *RIVALS)}
     for voids in (air - STEP, air, air + STEP):
         mix = replace(own, voids=voids)

@@ -116,7 +116,7 @@ def test_a_possible_cause_is_not_shown_as_a_certain_one(tmp_path):
     write_page(tmp_path / "page.html", table, curve)
     page = (tmp_path / "page.html").read_text()
     assert (
-        "<td>channel delay</td><td>temperature bias at 40 degC (68 %)</td>" in page
+        "<td>channel delay</td><td>temperature bias at 40 °C (68 %)</td>" in page
         and "The machine" not in page
     )
 

@@ -13,7 +13,7 @@ from asphalt_nscd.bending.bending_test import bond_law, run_test
 from asphalt_nscd.bending.case import LoadCase, load_case
 from asphalt_nscd.bending.condensing import condensed
 from asphalt_nscd.bending.further_settings import Hold
-from asphalt_nscd.bending.hold import coarse, hold, told
+from asphalt_nscd.bending.hold import doubt, hold, told
 from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.cli import hold as hold_command
@@ -70,8 +70,8 @@ def test_steps_too_long_for_the_law_are_told(prism):
         off = table.attrs["error_at_end"]
         x = 1.5 / steps * 24.3 / 3.71
         assert off == pytest.approx((1.0 + x) ** -steps * np.exp(steps * x) - 1.0, rel=0.02)
-        assert (coarse(table) != "") == doubtful
-    assert coarse(hold(prism, fading, Hold(1.5, 20, displacement_m=2e-8))).startswith("hold: at its end E is")
+        assert (doubt(table) != "") == doubtful
+    assert doubt(hold(prism, fading, Hold(1.5, 20, displacement_m=2e-8))).startswith("hold: at its end E is")
 
 
 def test_what_breaks_is_told(prism):
@@ -126,6 +126,36 @@ def test_a_load_beyond_the_strength_ends_in_a_sentence_long_before_each_bond_bro
         hold(prism, QUICK, Hold(10e-3, 40, **held))
     broken = int(str(told.value).split("fails, ")[1].split()[0])
     assert share * 338 < broken < 0.1 * 338
+
+
+def test_a_hold_that_breaks_keeps_its_table(prism):
+    """The steps before are those of a hold of the same steps that ends there."""
+    table = hold(prism, QUICK, Hold(2e-4, 40, force_N=60.0))
+    steps = len(table)
+    assert 5 < steps < 40 and table["time_s"].iloc[-1] == pytest.approx(steps * 5e-6)
+    told = f"hold: the record ends after {steps * 5e-6:.4g} of 0.0002 s: prism: the specimen fails, "
+    assert doubt(table).startswith(told)
+    before = hold(prism, QUICK, Hold(10 * 5e-6, 10, force_N=60.0))
+    assert before.attrs["ended"] == ""
+    np.testing.assert_allclose(table["displacement_m"][:10], before["displacement_m"], rtol=1e-12)
+
+
+@pytest.mark.parametrize("method", ["reduced", "condensed"])
+def test_a_test_that_breaks_writes_its_record_and_no_modulus(prism, common, tmp_path, method):
+    output = tmp_path / "test.h5"
+    test = f"--frequency-hz 100 --amplitude-n 160 --cycles 2 --time-step-s 1e-4 --rest-steps 10 --method {method}"
+    done = CliRunner().invoke(simulate_command.command, [*common, *test.split(), "--output", str(output)])
+    assert isinstance(done.exception, InputError)
+    kept = an.read(output)
+    steps = len(kept.history)
+    assert (
+        f"15 degC, 100 Hz: the record ends after {steps * 1e-4:.4g} of 0.02 s: prism: the specimen fails, "
+        in str(done.exception)
+    )
+    assert 10 < steps < 50 and np.isnan(kept.E_MPa) and kept.attributes["broken_bonds"] > 60
+    sine = 160.0 * np.sin(2e2 * np.pi * kept.history["time_s"])
+    np.testing.assert_allclose(kept.history["force_N"], sine, rtol=2e-4)  # the clamp is soft
+    assert "the record ends" in repr(kept) and kept.plot() is not None
 
 
 def test_nonsense_is_refused():

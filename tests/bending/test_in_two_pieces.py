@@ -63,3 +63,25 @@ def test_a_test_that_breaks_all_bonds_ends(make_beam, method, clamp):
     case = LoadCase(40.0, 2e-5, cycles=1.0, rig=Rig(clamp_compliance=clamp))
     with pytest.raises(InputError, match="in two pieces|the specimen fails"):
         run_test(beam, QUICK_LAW, case, Numerics(time_step=5e-4, method=method))
+
+
+def test_a_record_ends_with_the_step_before_the_specimen_parts(make_beam, monkeypatch):
+    """By the compiled kernel of the reduced form, which does not look for pieces, and by steps one by one."""
+    beam = model_of(
+        Record(*condensed(make_beam(shape=(2, 2, 9)), "beam", Bonds(yield_Pa=3e4), stand_by=0), "")
+    )
+
+    def tried(method: str, **options: bool) -> Record:
+        numerics, case = Numerics(1e-4, 0, method), LoadCase(40.0, 2e-5, 1.0)
+        return run_test(beam, QUICK_LAW, case, numerics, RunOptions(**options))
+
+    whole = tried("condensed")
+    monkeypatch.setattr(Model, "is_whole", lambda self, broken: len(broken) < 4)
+    for method, energy in (("reduced", False), ("reduced", True), ("condensed", False)):
+        record = tried(method, energy=energy, keeps_record=True)
+        steps = record.force.size
+        assert 0 < steps < 250 and "beam: the specimen is in two pieces, 4 of 80 bonds broke" in record.ended
+        assert record.time.size == record.displacement.size == steps and record.broken == whole.broken[:4]
+        np.testing.assert_allclose(record.force, whole.force[:steps], rtol=0, atol=1e-6 * whole.force.max())
+        with pytest.raises(InputError, match="in two pieces"):
+            tried(method, energy=energy)

@@ -13,11 +13,11 @@ from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
 from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
+from asphalt_nscd.diagnosis.next_tests import orders as instructions
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, possible
 from asphalt_nscd.diagnosis.next_tests.information import Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep, noise_of
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.record import instructions
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
 from asphalt_nscd.diagnosis.words import order_words
 from asphalt_nscd.diagnosis.words.sentences import spell_cause
@@ -126,32 +126,21 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
     assert hours == pytest.approx(0.5 + 2.0 + (200.0 + 2.0) / 3600.0 + 2.0 / 60.0)
 
 
+def why(kind, about, other, strengths, later=False, **then):
+    """Reasons that an order at 20 degC gives for one question."""
+    one = order_words.Open(kind, None, about, other, **then)
+    order = order_words.Order(Sweep("a", 20.0, (10.0,), False, None, 1.0), ["a"], 1.0, 1.0, {0: strengths})
+    return order_words.reasons(order, [one], order_words.Context(later=later))
+
+
 @pytest.mark.parametrize(
-    "before,alike,said",
-    [
-        (
-            4.0,
-            False,
-            "These tests speak for the channel delay, but not beyond doubt. This test should decide.",
-        ),
-        (
-            13.0,
-            False,
-            "These tests speak for the channel delay, but not beyond doubt. This test should decide.",
-        ),
-        (
-            14.0,
-            True,
-            "A phase offset fits these tests as well as the channel delay. This test should decide.",
-        ),
-        (14.0, False, ""),
-    ],
+    "before,alike,said", [(4.0, False, True), (13.0, False, True), (14.0, True, True), (14.0, False, False)]
 )
 def test_a_cause_that_looks_the_same_is_told_where_a_test_would_decide(before, alike, said):
-    asked = order_words.Open("apart", None, "channel delay", "phase offset", alike=alike)
-    assert order_words._reason(asked, before, 30.0).endswith(said)
-    assert bool(order_words._reason(asked, before, 30.0)) == bool(said)
-    assert not said or order_words._reason(asked, before, 13.0).endswith("This test should make it clearer.")
+    told = why("apart", "channel delay", "phase offset", (before, 30.0), alike=alike)
+    assert [one.endswith("This test should decide.") for one in told] == [True] * said
+    less = why("apart", "channel delay", "phase offset", (before, 13.0), alike=alike)
+    assert not said or less[0].endswith("This test should make it clearer.")
 
 
 def departure(kind, **where):
@@ -226,9 +215,9 @@ def test_half_the_strain_is_asked_for_with_the_size_that_it_should_halve(delayed
 
 
 def test_a_gain_too_small_to_matter_is_no_reason():
-    asked = order_words.Open("kept", None, "moving mass", "54 degC")
-    assert order_words._reason(asked, 1.8**2, 1.9**2) == ""
-    assert order_words._reason(asked, 1.8**2, 2.4**2).endswith("by 2.4 standard errors (now 1.8).")
+    assert why("kept", "moving mass", "54 degC", (1.8**2, 1.9**2)) == []
+    (told,) = why("kept", "moving mass", "54 degC", (1.8**2, 2.4**2))
+    assert told.endswith("by 2.4 standard errors (now 1.8).")
 
 
 def test_a_sweep_that_was_asked_for_lowers_the_standard_error_as_promised(empty):
@@ -290,23 +279,20 @@ def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
 
 
 def test_what_a_test_would_show_is_said_with_its_chance():
-    one = order_words.Open("reach", None, "a phase offset of 1.5 deg")
-    assert order_words._reachable_causes([(one, 4.0, 47.0)], order_words.Context()) == [
+    assert why("reach", "a phase offset of 1.5 deg", "", (4.0, 47.0)) == [
         "If there is a phase offset of 1.5 deg, this test finds it with a chance of 100 %; without it the chance is "
         "4 %."
     ]
 
 
 def test_places_of_one_cause_are_told_together():
-    cold, warm, hot, nothing = (
-        order_words.Open("reach", None, "a temperature bias of 0.9 K", "0.9 K", Candidate(BIAS, t, (0.0,)))
-        for t in (4.0, 20.0, 50.0, 35.0)
-    )
-    helped = [(warm, 0.0, 47.0), (cold, 0.0, 25.0), (hot, 9.0, 47.0), (nothing, 9.0, 9.1)]
-    assert order_words._reachable_causes(helped, order_words.Context(later=True)) == [
-        "If there is a temperature bias of 0.9 K at 4, 20 or 50 degC, this test finds it with a chance of 90 to "
-        "100 %; with only the steps above the chance is 0 to 24 %, depending on the temperature."
+    helped = [
+        (order_words.Open("reach", None, "a bias", candidate=Candidate(BIAS, t, (0.0,))), *strengths)
+        for t, *strengths in ((20.0, 0.0, 47.0), (4.0, 0.0, 25.0), (50.0, 9.0, 47.0), (35.0, 9.0, 9.1))
     ]
+    ((about, places, now, then),) = order_words.reached(helped)
+    assert about == "a bias" and order_words.in_places(places) == " at 4, 20 or 50 degC"
+    assert (order_words.chances(now), order_words.chances(then)) == ("0 to 24 %", "90 to 100 %")
 
 
 def test_whole_sweeps_are_ordered(delayed):
@@ -398,8 +384,7 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     assert instructions._strength_by_limit(shown, bias) == pytest.approx((3.7 + 1.645) ** 2)
     assert instructions._strength_by_limit(nowhere, bias) == 0.0
     assert all(one.hidden >= 0.0 for one in reach)
-    asked = order_words.Open("reach", None, "a bias of 0.9 K", hidden=9.0)
-    (said,) = order_words._reachable_causes([(asked, 9.0, 90.0)], order_words.Context())
+    (said,) = why("reach", "a bias of 0.9 K", "", (9.0, 90.0), hidden=9.0)
     assert said.endswith("with a chance of 100 %; without it the chance is 0 %.")
 
 
@@ -487,7 +472,8 @@ def test_a_copied_sweep_is_tested_again_because_it_is_a_copy():
         Sweep("a", 4.0, (10.0, 25.0), False, None, 1.0), ["a"], 1.0, 1.0, {0: (0.0, 1.0), 1: (0.0, 1.0)}
     )
     assert order_words.purpose(order, asked) == "because one of two equal sweeps is a copy"
-    assert order_words.reasons(order, asked, order_words.Context()) == [order_words.COPY]
+    (told,) = order_words.reasons(order, asked, order_words.Context())
+    assert "use the new tests in place of the old" in told
 
 
 def test_orders_know_the_copies(delayed):

@@ -78,13 +78,3 @@ def test_what_is_only_possible_is_not_taken_off(compared):
     # The likeliest alone would be surer: the interval knows of the doubt.
     assert first["phase_high_deg"] - first["phase_low_deg"] > 1.1 * 2.0 * 1.96 * sizes[0]
     assert "%" in first["averaged_over"]
-
-
-def test_a_specimen_that_is_held_back_is_told_on_the_first_screen(compared):
-    diagnosis = compared.diagnoses["N1-1_RH"]
-    told = dict(rows(diagnosis.content))
-    held = diagnosis.suspects[diagnosis.suspects["status"] == "held back"]
-    assert set(held["specimen"]) == {"7A"} and len(held) == 9
-    assert "9 only if a check clears them (all of specimen 7A)" in told["Data"][0]
-    assert told["Check first"][0].startswith("Specimen 7A") and "without specimen 7A" in told["Law"][0]
-    assert "too few to tell" not in str(diagnosis)

@@ -54,7 +54,7 @@ def test_the_command_says_what_was_not_judged(table, tmp_path, capsys):
         main(["diagnose", str(table), "--output", str(tmp_path / "out")])
     assert not ended.value.code
     said = capsys.readouterr().out
-    assert "90 tests of 3 specimens at -10, 4.44, 21.11, 37.78, 54.44 degC: |E*| alone, no phase." in said
+    assert "90 tests of 3 specimens at -10, 4.44, 21.11, 37.78 and 54.44 degC: |E*| alone, no phase." in said
     assert "cannot be held against causality" in said
     written = {path.name for path in (tmp_path / "out").iterdir()}
     assert written == {"stiffness.json", "stiffness_residuals.csv", "master_curve.csv", "diagnosis.html"}

@@ -91,14 +91,37 @@ def test_of_sound_tests_little_is_said():
 @pytest.mark.parametrize(
     "use,check,out,said",
     [
-        (65, 6, 1, "65 of 72 tests can be used, 6 only if a check clears them, 1 cannot."),
+        (
+            65,
+            6,
+            1,
+            "65 of 72 tests can be used, 2 are used but to be checked first, 4 only if a check clears them, 1 "
+            "cannot.",
+        ),
         (71, 0, 1, "71 of 72 tests can be used, 1 cannot."),
-        (0, 72, 0, "None of 72 tests can be used, 72 only if a check clears them."),
+        (
+            0,
+            72,
+            0,
+            "None of 72 tests can be used, 68 are used but to be checked first, 4 only if a check clears them.",
+        ),
     ],
 )
 def test_how_far_each_test_can_be_used_is_one_answer(use, check, out, said):
-    trust = {"use": use, "check": check, "not_used": out}
+    trust = {"use": use, "check": check, "held_back": min(check, 4), "not_used": out}
     assert row("Data", suspect_tests=of_suspects(0, out), tests=72 - out, trust=trust) == [said]
+
+
+def test_a_specimen_that_is_held_back_is_told_on_the_first_screen():
+    found = {
+        "trust": {"use": 63, "check": 9, "held_back": 9, "check_of": ["A"]},
+        "odd_phases": [{"specimen": "A", "temperature_C": None, "phase_deg": -2.0}],
+    }
+    assert row("Data", **found) == [
+        "63 of 72 tests can be used, 9 only if a check clears them (all of specimen A)."
+    ]
+    assert row("Check first", **found)[0].startswith("Specimen A: phase 2.0 deg below")
+    assert row("Law", **found)[0].endswith(" It was fitted to the tests without specimen A.")
 
 
 UNSURE = named("phase_offset", 1.5, "deg", established=False, probability=0.72)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from asphalt_nscd.forecasting.binders import GRADES, ViscosityShift, crossover_of, read_binder, shear_modulus
@@ -32,12 +33,33 @@ def test_a_grade_is_its_usual_a_and_vts():
     assert grade.law.complex_modulus(OMEGA, 20.0) == pytest.approx(known.law.complex_modulus(OMEGA, 20.0))
 
 
-@pytest.mark.parametrize(("letter", "told"), [("", False), ("S", False), ("E", True), ("V", True)])
-def test_a_grade_with_a_letter_of_traffic(letter, told):
-    """AASHTO M 332: S is the plain grade; of the others the usual viscosity is that of the plain one, and told so."""
-    read = read_binder({"grade": f"PG 64{letter}-22"}, "r")
-    assert (read.law.shift.a, read.law.shift.vts) == GRADES[64][-22]
-    assert (f"PG 64{letter}-22 is taken for PG 64-22" in read.caution) == told
+def test_all_grades_obey_one_rule_to_their_last_digit():
+    """300 Pa s at the high temperature, and one point that all pairs of one low temperature share.
+
+    A digit of A or VTS that is off by ten moves the first by a third, the second as far.
+    """
+    for high, lows in GRADES.items():
+        for pair in lows.values():
+            assert ViscosityShift(*pair).viscosity(high) == pytest.approx(300.0, rel=0.05), (high, pair)
+    for low in {low for lows in GRADES.values() for low in lows}:
+        a, vts = np.array([lows[low] for lows in GRADES.values() if low in lows]).T
+        slope, shared = np.polyfit(-vts, a, 1)  # a = shared + slope (-vts): all lines meet at log T = slope
+        assert np.abs(a - shared + slope * vts).max() < 2e-3, low
+
+
+def test_grades_have_the_viscosities_of_measured_mixes():
+    """A and VTS through the viscosities of data/mixes50, in most rows the default of the grade."""
+    recipes = pd.read_csv("data/mixes50/recipes.csv").set_index("mix")
+    moduli = pd.read_csv("data/mixes50/modulus.csv")
+    confirmed = set()
+    for mix, points in moduli.groupby("mix"):
+        grade = recipes.loc[mix, ["PG_high_C", "PG_low_C"]].astype(int)
+        temperature = np.log10(1.8 * (points["temperature_C"] + 273.15))
+        vts, a = np.polyfit(temperature, np.log10(np.log10(1e3 * points["binder_viscosity_Pa_s"])), 1)
+        known = GRADES.get(grade.iloc[0], {}).get(grade.iloc[1], (0.0, 0.0))
+        if abs(known[1] - vts) < 1.5e-3 and abs(known[0] - a) < 4e-3:
+            confirmed.add(tuple(grade))
+    assert confirmed == {(58, -22), (58, -28), (64, -16), (64, -22), (64, -28), (70, -28), (76, -22)}
 
 
 def test_stiffer_grades_are_stiffer_where_they_are_named_for():
@@ -51,6 +73,14 @@ def test_stiffer_grades_are_stiffer_where_they_are_named_for():
         for low in (-34, -28, -22, -16)
     ]
     assert (np.diff(hot) > 0).all() and (np.diff(cold) > 0).all()
+
+
+@pytest.mark.parametrize(("letter", "told"), [("", False), ("S", False), ("E", True), ("V", True)])
+def test_a_grade_with_a_letter_of_traffic(letter, told):
+    """AASHTO M 332: S is the plain grade; of the others the usual viscosity is that of the plain one, and told so."""
+    read = read_binder({"grade": f"PG 64{letter}-22"}, "r")
+    assert (read.law.shift.a, read.law.shift.vts) == GRADES[64][-22]
+    assert (f"PG 64{letter}-22 is taken for PG 64-22" in read.caution) == told
 
 
 def test_penetration_and_softening_point_by_hand():

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.system import BondedSystem, opening_operator
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.world import Surroundings, World, WorldBonds, _Contacts
 
@@ -18,8 +19,8 @@ LAW = BondLaw(24.3e9, 3.71e9, np.array([48.4e9]), np.array([0.773e9]))
 NONE = np.empty(0)
 ELASTIC = BondLaw(1e9, np.inf, NONE, NONE)  # a spring alone
 RADIUS, PITCH, DENSITY = 4e-3, 9e-3, 2400.0
-FLOOR = Surroundings(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), 0.5, 0.5)
-NOWHERE = Surroundings(np.array([[0.0, 0.0, -1e3]]), FLOOR.plane_normal, 0.5, 0.5, (0.0, 0.0, 0.0))
+FLOOR = Surroundings(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), ContactLaw(0.5, 0.5))
+NOWHERE = Surroundings(np.array([[0.0, 0.0, -1e3]]), FLOOR.plane_normal, FLOOR.law, (0.0, 0.0, 0.0))
 
 
 def bar(shape=(6, 2, 2), strength=np.inf) -> tuple[np.ndarray, WorldBonds]:
@@ -220,7 +221,7 @@ def test_a_sliding_sphere_loses_by_friction_what_theory_says():
 
     The floor is rough, spheres are not: the two are not to be exchanged.
     """
-    rough = replace(FLOOR, friction=0.0)
+    rough = replace(FLOOR, law=ContactLaw(0.0, 0.5))
     along = np.array([[0.1, 0.0, 0.0, 0.0, 0.0, 0.0]])
     ball = world(np.array([[0.0, 0.0, RADIUS]]), bar((1, 1, 1))[1], rough, 1e-4, velocity=along)
     for _ in range(400):

@@ -9,11 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from asphalt_nscd.reporting.compare import first_difference
-
 ROOT = Path(__file__).parents[2]
 PUBLISHED = ROOT / "results/published/paper"
 CHECK = runpy.run_path(str(ROOT / "tools/check.py"))
+first_difference = CHECK["first_difference"]
 
 
 @pytest.mark.parametrize("name", sorted(CHECK["REDONE"]))

@@ -77,10 +77,9 @@ def test_markdown_sums_what_is_short(tmp_path):
     for name, seconds in {"deposit": 900.0, "a": 5.0, "b": 3.0}.items():
         benchmark(tmp_path / f"{name}.tsv", seconds, 100.0, seconds / 2)
     lines = timing_summary(rule_times(files(tmp_path), tmp_path), 750.0).splitlines()
-    assert lines[2:] == [
-        "| deposit | 1 | 900 | 100 | 99 |",
-        "| all others | 2 | 8 | 100 | 1 |",
-        "| sum | 3 | 908 | 100 | 100 |",
-        "",
-        "Jobs ran side by side, so that all this took 12.5 minutes.",
+    assert [[cell.strip() for cell in line.split("|")[1:-1]] for line in lines[2:5]] == [
+        ["deposit", "1", "900", "100", "99"],
+        ["all others", "2", "8", "100", "1"],
+        ["sum", "3", "908", "100", "100"],
     ]
+    assert lines[-1] == "Jobs ran side by side, so that all this took 12.5 minutes."

@@ -9,6 +9,7 @@ import pytest
 from naive.granular import all_pairs
 
 from asphalt_nscd.nscd.spheres.granular import near_pairs
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.specimen import granular_bed as granular_bed
 from asphalt_nscd.specimen.deposit import REST_SPEED, PouringHistory, balance, settle, vibrate
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
@@ -26,7 +27,7 @@ def granular_layer(seed=1, friction=0.2) -> GranularBed:
     position, radius = random_lattice(
         np.array([2e-3, 3e-3, 5e-3]), np.array([60, 40, 15]), BOX, np.random.default_rng(seed)
     )
-    return GranularBed.spheres_in_box(position, radius, BOX, 2600.0, friction)
+    return GranularBed.spheres_in_box(position, radius, BOX, 2600.0, ContactLaw(friction, friction))
 
 
 @pytest.fixture(scope="module")
@@ -96,7 +97,7 @@ def test_grains_that_rain_at_5_m_s_do_not_enter_each_other():
         np.concatenate([flock.radius, high.radius]),
         (BOX[0], BOX[1], 0.1),
         2600.0,
-        0.2,
+        ContactLaw(0.2, 0.2),
     )
     flock.velocity[n : 2 * n, 2] = -5.0
     for _ in range(100):
@@ -315,7 +316,7 @@ def test_fixed_spheres_stay_and_bear_a_third():
     """Two of no inverse mass that overlap are no contact: 1/0 made NaN of every motion."""
     radius = np.full(3, 4e-3)
     position = np.array([[0.012, 0.012, 0.004], [0.0195, 0.012, 0.004], [0.01575, 0.012, 0.0115]])
-    bed = GranularBed.spheres_in_box(position, radius, (0.03, 0.03, 0.03), 2600.0, 0.5)
+    bed = GranularBed.spheres_in_box(position, radius, (0.03, 0.03, 0.03), 2600.0, ContactLaw(0.5, 0.5))
     bed.inverse_mass[:2] = 0.0
     numerics = PouringNumerics.of(radius, 4e-4)
     for _ in range(200):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 
@@ -18,11 +19,13 @@ def numerics(**changes) -> PouringNumerics:
 
 
 def balls(
-    position, radius=R, box=(1.0, 1.0, 1.0), friction=0.5, restitution=0.0, gravity=(0, 0, -G)
+    position, radius=R, box=(1.0, 1.0, 1.0), friction=0.5, restitution=0.0, gravity=(0, 0, -G), **law
 ) -> GranularBed:
+    """`law`: of the contacts, beside friction; walls are as rough as spheres unless it says otherwise."""
     position = np.atleast_2d(np.asarray(position, float))
+    sizes, contacts = np.broadcast_to(radius, len(position)).astype(float), {"wall_friction": friction} | law
     bed = GranularBed.spheres_in_box(
-        position, np.broadcast_to(radius, len(position)).astype(float), box, 2600.0, friction, restitution
+        position, sizes, box, 2600.0, ContactLaw(friction, **contacts), restitution
     )
     bed.gravity = np.asarray(gravity, float)
     return bed
@@ -72,11 +75,11 @@ def on_incline(slope: float, friction: float) -> GranularBed:
     return advanced(balls([0.1, 0.5, R], friction=friction, gravity=tilted), 200)
 
 
-def cloud(seed, restitution, friction):
+def cloud(seed, restitution, friction, **law):
     """30 spheres of two sizes strewn over a narrow box, with random velocities and spins."""
     rng = np.random.default_rng(seed)
     box = (0.017, 0.016, 0.05)  # not a multiple of the diameters: three spheres must not wedge between walls
     position, radius = random_lattice(np.array([3e-3, 5e-3]), np.array([20, 10]), box, rng)
-    bed = balls(position, radius, box, friction, restitution)
+    bed = balls(position, radius, box, friction, restitution, **law)
     bed.velocity[: radius.size] = rng.normal(0, 0.2, (radius.size, 6))
     return bed

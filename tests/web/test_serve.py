@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import io
+import multiprocessing
 import time
 import zipfile
 
+import forks  # noqa: F401  what its server has loaded, a process need not load again
 import pytest
 from table_import.slips import workbook
 
@@ -13,6 +15,7 @@ pytest.importorskip("flask")
 
 from asphalt_nscd.files.errors import InputError  # noqa: E402
 from asphalt_nscd.web import app as pages  # noqa: E402
+from asphalt_nscd.web import work  # noqa: E402
 from asphalt_nscd.web.app import create_app, safe_name  # noqa: E402
 from asphalt_nscd.web.work import Choices, Job, read_tables  # noqa: E402
 
@@ -24,6 +27,13 @@ TABLE = "specimen,T (°C),f (Hz),E (MPa),phi (°)\n" + "".join(
 )
 TAB = "0123456789ab"
 PAGE = f"/secret/{TAB}/"
+
+
+@pytest.fixture(autouse=True)
+def quick_processes(monkeypatch):
+    """Started as forks; test_ended and test_browser start them as users do."""
+    context = multiprocessing.get_context("forkserver")
+    monkeypatch.setattr(work.multiprocessing, "get_context", lambda _: context)
 
 
 @pytest.fixture
@@ -86,6 +96,26 @@ def test_files_are_read_and_said(client, app):
     assert held.items() >= expected.items()
     # Notes hold no folder of the server, and menus of the page for options of the command.
     assert not any(str(app.config["DESKS"].folder) in note or "--" in note for note in content["notes"])
+
+
+def test_what_a_file_says_of_its_tests_is_shown_and_all_its_specimens(client):
+    names = ["Temp. (°F)", "f (Hz)", "E* (ksi)", "", "phase (°)", ""]
+    rows = [
+        [t if f == 10 else "", f, 900 - 3 * t + f, 905 - 3 * t + f, 20, 21] for t in (40, 70) for f in (10, 1)
+    ]
+    table = [["AASHTO T 342 results"], ["Mix ID:", "SP-12.5"], names, ["", "", "S1", "S2", "S1", "S2"], *rows]
+    text = "\n".join(";".join(map(str, row)) for row in table)
+    content = dropped(client, ("t.csv", text.encode())).get_json()
+    assert (content["mix"], content["test_type"]) == ("SP-12.5", "tension-compression")
+    shown = {one["name"]: (one["condition"], one["cells"]) for one in content["columns"]}
+    assert shown["E* (ksi)"][0] == "S1, S2" and shown["Temp. (°F)"][1] == "40, 70"
+    menus = client.get(PAGE).text
+    assert (
+        menus.index('"E_MPa"')
+        < menus.index('"phase_deg"')
+        < menus.index('"specimen"')
+        < menus.index('"E1_MPa"')
+    )
 
 
 def test_each_tab_has_a_desk_that_a_reload_keeps_and_no_other_sees(client):

@@ -399,10 +399,43 @@ def two_mixes(lab: Laboratory) -> Sheets:
     }
 
 
+def quantities_below(lab: Laboratory) -> Sheets:
+    """A column for each specimen; the phase below the modulus or on a sheet of its own; statistics behind."""
+    kinds = int(lab.random.integers(0, 4))
+    head = [lab.name["t"], lab.name["f"], *lab.tests.specimens, *lab.statistics[:kinds]]
+    blocks: list[Rows] = []
+    for which, key in enumerate("ep"):
+        rows = [
+            [
+                shown,
+                f,
+                *(lab.both(s, t, f)[which] for s in lab.tests.specimens),
+                *lab.computed(which, t, f, kinds),
+            ]
+            for shown, t, f in lab.grid(merged=True)
+        ]
+        blocks.append([[lab.name[key]], head, *rows, []])
+    return {"E": blocks[0], "P": blocks[1]} if lab.chance(0.5) else {"Results": [*blocks[0], *blocks[1]]}
+
+
+def units_below(lab: Laboratory) -> Sheets:
+    """Units in a line below the names, the mix above; specimen, temperature and the block of means are named once."""
+    rows: Rows = [[f"{lab.mix}:", "AC 22 T S 30/45"], [], [lab.specimen, *(lab.bare[k] for k in "tfep")]]
+    rows.append(["", *(lab.units[k] for k in "tfep")])
+    for s in lab.tests.specimens:
+        cells = [[shown, f, *lab.both(s, t, f)] for shown, t, f in lab.grid(merged=True)]
+        rows += [[None if n else s, *row] for n, row in enumerate(cells)]
+    if lab.chance(0.5) and lab.language in ("en", "fr", "de"):
+        means = [[lab.t(t), f, *(lab.computed(w, t, f, 1)[0] for w in (0, 1))] for _, t, f in lab.grid()]
+        rows += [[None if n else lab.statistics[0], *row] for n, row in enumerate(means)]
+    return {"Data": rows}
+
+
 FAMILIES: tuple[Callable[[Laboratory], Sheets], ...] = (
     long, specimens_over_pairs, quantities_over_specimens, statistics_beside, statistics_below, numbered,
     temperatures_across, matrices_below, matrices_by_sheet, isothermal_columns, sheet_of_each_specimen,
-    sheet_of_each_temperature, parts, ampt, utm, cooper, controls, two_mixes,
+    sheet_of_each_temperature, parts, ampt, utm, cooper, controls, two_mixes, quantities_below,
+    units_below,
 )  # fmt: skip
 
 
@@ -422,11 +455,11 @@ def draw(seed: int, folder: Path) -> tuple[str, Path, Tests]:
         else lab.pick("xlsx", "xlsx", "ods")
     )
     path = folder / f"{family.__name__}_{seed}.{ending}"
-    {"xlsx": _save_xlsx, "ods": _save_ods, "csv": _save_csv}[ending](path, sheets, lab)
+    {"xlsx": save_xlsx, "ods": save_ods, "csv": save_csv}[ending](path, sheets, lab)
     return family.__name__, path, lab.tests
 
 
-def _save_xlsx(path: Path, sheets: Sheets, lab: Laboratory) -> None:
+def save_xlsx(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     book = openpyxl.Workbook()
     book.remove(book.active)
     hide = lab.chance(0.1)
@@ -438,7 +471,7 @@ def _save_xlsx(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     book.save(path)
 
 
-def _save_csv(path: Path, sheets: Sheets, lab: Laboratory) -> None:
+def save_csv(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     """With semicolons and decimal commas where the language has them."""
     ((_, rows),) = sheets.items()
     english = lab.language == "en"
@@ -458,7 +491,7 @@ def _save_csv(path: Path, sheets: Sheets, lab: Laboratory) -> None:
         )
 
 
-def _save_ods(path: Path, sheets: Sheets, lab: Laboratory) -> None:
+def save_ods(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     """As LibreOffice keeps it."""
 
     def cell(value: Any) -> str:

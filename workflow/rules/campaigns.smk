@@ -67,6 +67,7 @@ if POURED:
     include: "rigs.smk"  # the specimens of all tests against the law
     include: "fatigue.smk"  # bonds that tire
     include: "fall.smk"  # bonds that turn, and pieces that fall
+    include: "ramp.smk"  # a specimen pulled to failure
 
 
 for name, made in MADE.items():

@@ -2,7 +2,7 @@
 from itertools import product
 
 # What only says in words what was found, or what to test next.
-SAID = ("diagnosis.words", "diagnosis.next_tests", "diagnosis.record.instructions", "diagnosis.record.trust")
+SAID = ("diagnosis.words", "diagnosis.next_tests")
 NAMED = ["<results>/extended/diagnosis/diagnosis.json", "<results>/extended/diagnosis/law.json"]
 
 

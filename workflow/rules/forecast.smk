@@ -30,6 +30,12 @@ SCRIPTED |= {
             "campaign": sorted(f"data/ncat/{path.name}" for path in (CLONE / "data/ncat").glob("*.csv")),
         },
     ),
+    "forecast_slopes": Scripted(
+        "Hold the cost of a percent of air and of binder against measured stiffness",
+        "forecast/slopes",
+        {"table": "results/forecast/slopes.csv"},
+        {"recipe": RECIPE, "slopes": "data/forecast/slopes.csv"},
+    ),
     "forecast_blind": Scripted(
         "Hold the forecast against 25 mixes",  # on request: who saw which of them, and when, is in seen.csv
         "forecast/blind",
@@ -40,6 +46,8 @@ SCRIPTED |= {
                 "mixes": "blind_mixes",
                 "overall": "blind_overall",
                 "tried": "blind_tried",
+                "left_out": "blind_left_out",
+                "binders": "blind_binders",
             }.items()
         },
         {

@@ -48,7 +48,8 @@ PUBLISHED = {
         "forecast",
         [
             *(f"mixes/{name}.csv" for name in ("overall", "errors")),
-            *(f"{name}.csv" for name in ("voids", "paper_mix", "blind", "blind_mixes", "blind_overall", "blind_tried")),
+            *(f"{name}.csv" for name in ("voids", "slopes", "paper_mix", "blind")),
+            *(f"blind_{name}.csv" for name in ("mixes", "overall", "tried", "left_out", "binders")),
             "figures/fig_forecast.png",
             "provenance.json",
         ],
@@ -56,6 +57,9 @@ PUBLISHED = {
             "forecast": "mixes/overall.csv",
             "forecast_blind": "blind_overall.csv",
             "forecast_tried": "blind_tried.csv",
+            "forecast_left_out": "blind_left_out.csv",
+            "forecast_binders": "blind_binders.csv",
+            "forecast_slopes": "slopes.csv",
         },
     ),
     "publish_measured": Published(
@@ -102,6 +106,9 @@ PUBLISHED = {
     ),
     "publish_rigs": Published("rigs", ["rigs.csv", "provenance.json"], {"rigs": "summary.csv"}),
     "publish_fall": Published("fall", ["falls.csv", "figures/fig_fall.png", "provenance.json"]),
+    "publish_ramp": Published(
+        "ramp", ["ramps.csv", "curve.csv", "figures/fig_ramp.png", "provenance.json"], {"ramp": "ramps.csv"}
+    ),
     # These are of programs that are no rules: `make faults`, `make fuzz`, trials/mutants.py, trials/cluster.
     "publish_faults": Published(
         "faults",

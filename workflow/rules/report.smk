@@ -75,7 +75,7 @@ rule pages:
     input:
         tables=[f"<results>/{name}.csv" for name in PAGES],
         code=code("page"),
-        template=page_files(),
+        template=page_files("table_page.html", "table.html"),
     output:
         [
             report(

@@ -19,7 +19,7 @@ from asphalt_nscd.bending.bending_test import FRAMES, damage, outcome, told, uns
 from asphalt_nscd.bending.case import RunOptions, load_case
 from asphalt_nscd.bending.condensing import condensed, idle_option_note
 from asphalt_nscd.bending.further_settings import Cycling, Hold
-from asphalt_nscd.bending.hold import coarse
+from asphalt_nscd.bending.hold import doubt as doubt_of_hold
 from asphalt_nscd.bending.hold import hold as of_hold
 from asphalt_nscd.bending.model import Model, model_of
 from asphalt_nscd.bending.settings import Bonds, Load, Numerics
@@ -202,7 +202,8 @@ def bend(
     Returns
     -------
     Test
-        E*, and the record of force and displacement behind it.
+        E*, and the record of force and displacement behind it. Of a specimen that breaks in two E* is NaN, the record
+        goes up to the break, and attributes["ended"] says when and why.
 
     Raises
     ------
@@ -212,8 +213,8 @@ def bend(
     Warns
     -----
     UserWarning
-        If bonds break: E* is then that of a damaged specimen. If sweeps did not settle, or a choice of `bonds` has no
-        effect.
+        If bonds break: E* is then that of a damaged specimen, or the record ends early. If sweeps did not settle, or a
+        choice of `bonds` has no effect.
 
     Examples
     --------
@@ -234,7 +235,9 @@ def bend(
         *outcome(model_in_memory(given, bonds), followed, temperature_C, case, numerics, options), given.name
     )
     doubts = [idle_option_note(bonds, given.bonded.area), unsettled(test.attributes)]
-    if test.broken_bonds:
+    if "ended" in test.attributes:
+        doubts.append(told(test.attributes))
+    elif test.broken_bonds:
         doubts.append(damage(test.attributes))
     _warn(doubts)
     return test
@@ -268,17 +271,19 @@ def hold(
     -------
     DataFrame
         One row a step (n,): time_s, displacement_m, force_N; of creep D_1_GPa and D_law_1_GPa, of relaxation E_MPa and
-        E_law_MPa, by the form factor of the test. attrs: broken_bonds, residual.
+        E_law_MPa, by the form factor of the test. attrs: broken_bonds, residual, and ended, which says why there are
+        fewer steps than asked, else empty.
 
     Raises
     ------
     InputError
-        With one sentence, where the law does not hold at this temperature, or the specimen breaks in two.
+        With one sentence, where the law does not hold at this temperature, or no step could be made.
 
     Warns
     -----
     UserWarning
-        If the steps are too long for the law, or a choice of `bonds` has no effect.
+        If the specimen breaks in two: the table goes up to there. If the steps are too long for the law, or a choice of
+        `bonds` has no effect.
 
     Examples
     --------
@@ -294,7 +299,7 @@ def hold(
     law = law if isinstance(law, Law) else Law.read(law)
     lowest, highest = held.band
     table = of_hold(model_in_memory(given, bonds), law.of_bonds(lowest, temperature_C, highest).bonds, held)
-    _warn([idle_option_note(bonds, given.bonded.area), coarse(table)])
+    _warn([idle_option_note(bonds, given.bonded.area), doubt_of_hold(table)])
     return table
 
 

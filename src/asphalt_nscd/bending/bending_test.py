@@ -50,7 +50,7 @@ class Record:
     `time` (s,) in s from the start of the oscillation; `displacement` (s,) of the channel in m; `force` (s,) of the
     actuator in N; `velocity` (s, l) in m/s, means over the layers; `broken` in the order of breaking; `frames` at the
     times of `Numerics.framed`. `residual` is that of the full equations, of "sweeps" the relative change of the last
-    sweep, and NaN where nothing is checked.
+    sweep, and NaN where nothing is checked. `ended` says why a record is shorter than asked.
     """
 
     time: np.ndarray
@@ -61,6 +61,7 @@ class Record:
     details: dict[str, float | int]
     velocity: np.ndarray | None = None
     frames: Sequence[runs.Frame] = ()
+    ended: str = ""
 
 
 def run_test(
@@ -72,8 +73,8 @@ def run_test(
 ) -> Record:
     """Apply gravity for the steps at rest, then the load case at the actuator; the record begins with the load case.
 
-    The actuator is the head itself but for the rig; the record is that of the rig's channel. Raises ArithmeticError
-    where the motion cannot be followed, as of a specimen in two pieces.
+    The actuator is the head itself but for the rig; the record is that of the rig's channel. ArithmeticError or
+    InputError where the motion cannot be followed, as of a specimen in two pieces, unless the options keep the record.
     """
     require_possible(case, numerics, options)
     if case.by_force:
@@ -88,7 +89,11 @@ def run_test(
         full = runs.sweeps if numerics.method == "sweeps" else runs.condensed
         run = full(model.whole, law, case, numerics, options)
     force, velocity = run.force[rest:], run.velocity[rest:]
-    return Record(times, displacement, force, run.broken, run.residual, run.details, velocity, run.frames)
+    if run.ended and not force.size:
+        raise InputError(run.ended)
+    made = slice(force.size)
+    followed = run.residual, run.details, velocity, run.frames, run.ended
+    return Record(times[made], displacement[made], force, run.broken, *followed)
 
 
 def _force_run(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, options: RunOptions) -> Record:
@@ -166,7 +171,9 @@ def simulate(
 
 
 def told(columns: Mapping[str, Any]) -> str:
-    """Say in one line |E*|, the phase and the number of bonds that broke in a test."""
+    """Say in one line |E*|, the phase and the number of bonds that broke in a test, or why it ended."""
+    if "ended" in columns:
+        return f"{columns['temperature_C']:g} degC, {columns['frequency_Hz']:g} Hz: {columns['ended']}"
     words = (
         f"{columns['temperature_C']:g} degC, {columns['frequency_Hz']:g} Hz: |E*| = {columns['E_MPa']:.4g} MPa, "
         f"phase {columns['phase_deg']:.2f} deg; law {columns['E_law_MPa']:.4g} MPa, "
@@ -175,6 +182,11 @@ def told(columns: Mapping[str, Any]) -> str:
     if columns["broken_bonds"]:
         words += f", {columns['broken_bonds']} of {counted(columns['bonds'], 'bond')} broke"
     return words
+
+
+def ended(why: str, times: np.ndarray, asked: float) -> str:
+    """A sentence on a record that ends early, after `times` (n,) [s] of those asked [s]."""
+    return f"the record ends after {times[-1]:.4g} of {asked:g} s: {why}"
 
 
 def damage(columns: Mapping[str, Any]) -> str:
@@ -188,7 +200,7 @@ def damage(columns: Mapping[str, Any]) -> str:
 
 def unsettled(columns: Mapping[str, Any]) -> str:
     """A sentence on sweeps that ended before they had settled; empty for any other test."""
-    if columns["method"] != "sweeps" or columns["residual"] < columns["tolerance"]:
+    if "ended" in columns or columns["method"] != "sweeps" or columns["residual"] < columns["tolerance"]:
         return ""
     return (
         f"the sweeps did not settle: the last of {columns['most_sweeps']} in a step still changed the reactions by a "
@@ -211,16 +223,18 @@ def outcome(
         raise InputError(f"cycles = {cycles:g}: the reduction needs a whole cycle; run at least one.")
     require_steps(time_step, frequency)
     try:
-        record = run_test(model, bond_law(law), case, numerics, options)
+        record = run_test(model, bond_law(law), case, numerics, replace(options, keeps_record=True))
     except ArithmeticError as error:
         raise InputError(
             f"{model.name} at {frequency:g} Hz: {error}; lower the amplitude or choose another method."
         ) from None
     history = record.time, record.force, record.displacement, frequency
-    # the first cycles hold the transient of the Maxwell dashpot and of the start from rest
-    steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))
-    # the paper's way: maxima carry the drift of the Maxwell dashpot, which the fit takes off
-    peak = peak_response(*history, cycles=1)
+    steady = peak = Response(np.nan, np.nan, np.nan)
+    if not record.ended:
+        # the first cycles hold the transient of the Maxwell dashpot and of the start from rest
+        steady = harmonic_response(*history, cycles=min(REDUCED_CYCLES, int(cycles)))
+        # the paper's way: maxima carry the drift of the Maxwell dashpot, which the fit takes off
+        peak = peak_response(*history, cycles=1)
     columns: dict[str, Any] = {
         "specimen": model.name,
         "temperature_C": temperature,
@@ -248,6 +262,7 @@ def outcome(
         **({"amplitude_N": case.amplitude} if case.by_force else {}),
         **record.details,
         **({} if numerics.scheme == "euler" else {"scheme": numerics.scheme}),
+        **({"ended": ended(record.ended, record.time, cycles / frequency)} if record.ended else {}),
     }
     arrays = {
         "time_s": record.time,
@@ -257,7 +272,7 @@ def outcome(
         **_velocity_profile(model.layers, record, frequency),
     }
     if record.frames:
-        times = record.time[case.framed(numerics, options.frames)]
+        times = record.time[case.framed(numerics, options.frames)[: len(record.frames)]]
         arrays |= {
             f"{FRAMES}/{name}": values for name, values in framed(model.whole, times, record.frames).items()
         }

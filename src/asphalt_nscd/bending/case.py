@@ -99,7 +99,8 @@ class RunOptions:
     `progress` is called with (steps done, steps in all); `most_broken` and `most_closed` are the shares of bonds broken
     and of gaps closed at once beyond which the run ends with a message. `energy` keeps the energy account of a reduced
     run too; `frames` instants of the last cycle are kept with all spheres and bonds. Either makes the steps one by one.
-    `to_failure`: the run goes on in pieces, however many bonds break; one that cannot go on keeps its record.
+    A run that cannot go on raises, or ends with the record so far (`keeps_record`). `to_failure`: it goes on in pieces,
+    however many bonds break.
     """
 
     progress: Progress = lambda done, total: None
@@ -107,6 +108,7 @@ class RunOptions:
     frames: int = 0
     most_broken: float = 0.2  # beyond, bond after bond breaks, and each is solved for: it took minutes
     most_closed: float = 0.1
+    keeps_record: bool = False
     to_failure: bool = False
 
 

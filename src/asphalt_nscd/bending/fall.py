@@ -11,6 +11,7 @@ from asphalt_nscd.bending.further_settings import Fall
 from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.nscd.world import Surroundings, World, WorldBonds
 from asphalt_nscd.specimen.contents import Content
 from asphalt_nscd.specimen.system import bond_weight, inertia
@@ -33,7 +34,8 @@ def released(specimen: Specimen, law: BondLaw, fall: Fall, bonds: Bonds) -> Worl
         bond_weight(specimen, bonds.poisson, bonds.kt_over_kn)[inside].ravel(),
         bonds.yield_Pa * network.area[inside],
     )
-    floor = Surroundings(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), bonds.friction, bonds.friction)
+    law_of_contacts = ContactLaw(bonds.friction, bonds.friction, fall.rolling_friction)
+    floor = Surroundings(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]]), law_of_contacts)
     made = World(specimen.position, specimen.radius, inertia(specimen), between, law, floor, fall.time_step)
     if made.fragments().any():
         raise InputError(

@@ -196,6 +196,9 @@ class Fall(Ranged):
     duration: float = option("How long it is followed.", 0.5, key="duration_s", above=0.0, high=100.0)
     time_step: float = option("Time step.", 2e-4, key="time_step_s", low=1e-7, high=1e-2)
     frames: int = option("Instants to keep for ParaView.", 50, low=2, high=10_000)
+    rolling_friction: float = option(
+        "Couple that resists rolling, over the force that presses and the radius.", 0.0, low=0.0, high=10.0
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.bending import runs
-from asphalt_nscd.bending.bending_test import bond_law
+from asphalt_nscd.bending.bending_test import bond_law, ended
 from asphalt_nscd.bending.case import RunOptions
 from asphalt_nscd.bending.further_settings import Hold
 from asphalt_nscd.bending.model import Model
@@ -27,9 +27,9 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
 
     The form factor of the test is used; inertia and weight are left out. Each step has time_s, displacement_m,
     force_N; of creep D_1_GPa and D_law_1_GPa, of relaxation E_MPa and E_law_MPa. `attrs`: broken_bonds, residual of
-    the full equations, error_at_end against the law by statics. Raises InputError where the specimen breaks in two
-    or, once the full equations go on, more than `MOST_BROKEN` of its bonds break, or so many of its gaps close that
-    strains are no longer small.
+    the full equations, error_at_end against the law by statics; `ended`, empty or why the table is shorter than asked:
+    the specimen is in two pieces or, once the full equations go on, more than `MOST_BROKEN` of its bonds broke, or so
+    many of its gaps closed that strains are no longer small. InputError where no step could be made.
     """
     chain = law.kelvin_form() if isinstance(law, Burgers) else law
     dt, geometry = held.time_step, model.geometry
@@ -44,11 +44,15 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
         # held from the first step on, as in the closed forms: no ramp
         path = np.full(held.steps, held.displacement_m or geometry.usual_amplitude(), float)
     # a load beyond the strength would break bond after bond, and the contacts of each be solved: minutes
-    options = RunOptions(most_broken=MOST_BROKEN)
+    options = RunOptions(most_broken=MOST_BROKEN, keeps_record=True)
     try:
         run = runs.path_run(tared(model), bond_law(chain), HeadDevices(clamp), dt, path, options)
     except ArithmeticError as error:
         raise InputError(f"{model.name}: {error}; hold less, or for a shorter time.") from None
+    done = slice(run.force.size)
+    if run.ended and not run.force.size:
+        raise InputError(run.ended)
+    times, path = times[done], path[done]
     table = pd.DataFrame({"time_s": times, "displacement_m": path - clamp * run.force, "force_N": run.force})
     modulus = geometry.form_factor() * table["force_N"] / table["displacement_m"]
     if held.force_N is not None:
@@ -61,11 +65,14 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     off = abs((shown / constant if held.force_N is None else shown * constant) - 1.0)
     table.attrs = {"specimen": model.name, "broken_bonds": len(run.broken), "residual": run.residual}
     table.attrs["error_at_end"] = off
+    table.attrs["ended"] = ended(run.ended, times, held.duration_s) if run.ended else ""
     return table
 
 
-def coarse(table: pd.DataFrame) -> str:
-    """A sentence on steps too long for the law of a hold; empty where they are short enough, or bonds broke."""
+def doubt(table: pd.DataFrame) -> str:
+    """A sentence on a hold that ended early, or whose steps are too long for the law; empty where neither holds."""
+    if table.attrs["ended"]:
+        return f"hold: {table.attrs['ended']}"
     off = table.attrs["error_at_end"]
     if table.attrs["broken_bonds"] or off <= COARSE:
         return ""

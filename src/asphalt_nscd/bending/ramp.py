@@ -61,7 +61,7 @@ def ramp(
             raise InputError(f"the specimen gives way, {broken} of {counted(model.bonds, 'bond')} broke")
         rows.append({"broken_bonds": broken, **{f"energy_{k}_J": v for k, v in asdict(sums).items()}})
 
-    options = RunOptions(progress, to_failure=True)
+    options = RunOptions(progress, keeps_record=True, to_failure=True)
     run = runs.march_along(march, system, end * share, options, set(kept.tolist()), after=note)
     if not rows:
         raise InputError(f"{model.name}: {run.ended}")

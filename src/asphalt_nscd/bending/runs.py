@@ -58,8 +58,8 @@ class Histories:
 
     `force` (n,) of the actuator in N; `velocity` (n, l), means of the layers, in m/s; `broken` in the order of
     breaking; `full_steps` were made by the full system. `residual` is that of the full equations,
-    of "sweeps" the relative change of the last sweep, and NaN if not checked. `ended` says why a run to failure is
-    shorter than asked.
+    of "sweeps" the relative change of the last sweep, and NaN if not checked. `ended` says why a run is shorter than
+    asked.
     """
 
     force: Vector
@@ -88,7 +88,7 @@ def reduced(
     scheme = _scheme(case, numerics)
     stepper = _reduced_stepper(model.whole, law, numerics.time_step / scheme.a, case.rig)
     run = _follow(March(stepper, scheme, law, numerics.time_step), model.whole, case, numerics, options)
-    return _certified(stepper, model, run)
+    return _certified(stepper, run)
 
 
 def path_run(
@@ -105,6 +105,13 @@ def path_run(
     try:
         force, coordinates = stepper.run(driven)
         run = Histories(force, coordinates @ layers, stepper.state.broken)
+        if run.broken and not model.whole.is_whole(run.broken):
+            from asphalt_nscd.nscd.stepping.integrator import March
+
+            # the kernel does not look for pieces: step by step, the run ends with the step that made them
+            stepper = _reduced_stepper(model.whole, law, time_step, devices)
+            march = March(stepper, Scheme(), law, time_step, account=False)
+            run = march_along(march, model.whole, driven, options)
     except FullSystemNeeded as accepted:
         from asphalt_nscd.nscd.stepping.integrator import March
 
@@ -117,13 +124,10 @@ def path_run(
         run.force = np.concatenate([accepted.force, run.force])
         run.velocity = np.concatenate([accepted.velocity @ layers, run.velocity])
     options.progress(driven.size, driven.size)
-    return _certified(stepper, model, run)
+    return _certified(stepper, run)
 
 
-def _certified(stepper: ReducedStepper, model: Model | ModelExcerpt, run: Histories) -> Histories:
-    # the kernel breaks bonds without looking for pieces: asked once, at the end
-    if run.broken:
-        model.whole.require_whole(run.broken)
+def _certified(stepper: ReducedStepper, run: Histories) -> Histories:
     certificate = stepper.certificate()
     run.residual = certificate.largest_residual
     run.details = {
@@ -232,7 +236,7 @@ def march_along(
     The full system takes over where the reduced one cannot go on; `small`, reduced, certifies what that does.
     """
     layers = model.layers
-    run = Histories(np.empty(path.size), np.empty((path.size, layers.height.size)))
+    run, broken = Histories(np.empty(path.size), np.empty((path.size, layers.height.size))), 0
     if isinstance(march.stepper, ReducedStepper):
         small, along = march.stepper, layers.mean @ march.stepper.model.basis
     for n, place in enumerate(path):
@@ -241,9 +245,12 @@ def march_along(
             if small is not None and march.stepper is not small:
                 small.certify(cast("CondensedStepper", march.stepper))
                 run.full_steps += 1
+            if len(march.stepper.state.broken) != broken and not options.to_failure:
+                broken = len(march.stepper.state.broken)
+                model.require_whole(march.stepper.state.broken)
             after()
         except (InputError, ArithmeticError) as error:
-            if not options.to_failure:
+            if not options.keeps_record:
                 raise
             run.ended, run.force, run.velocity = str(error), run.force[:n], run.velocity[:n]
             break

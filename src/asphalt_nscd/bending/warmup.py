@@ -18,10 +18,11 @@ _GEOMETRY = Geometry(b=4.2e-3, B=4.2e-3, e=4.2e-3, h=4.2e-3, mass=1e-3, mobile_m
 
 def pour() -> None:
     """Pour eight spheres and look for those that are to be bonded."""
+    from asphalt_nscd.nscd.spheres.laws import ContactLaw
     from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
     from asphalt_nscd.specimen.network import bond_network
 
-    bed = GranularBed.spheres_in_box(_POSITION, _RADIUS, (4.2e-3,) * 3, 2600.0, 0.2)
+    bed = GranularBed.spheres_in_box(_POSITION, _RADIUS, (4.2e-3,) * 3, 2600.0, ContactLaw(0.2, 0.2))
     for _ in range(200):
         bed.advance(PouringNumerics())
     bed.velocity[:8, 2] = -2.0  # a rain has kernels of its own

@@ -74,6 +74,7 @@ def command(
     if percent is not None and degrees is not None:
         known = replace(known, scatter=(percent, degrees))
     campaign = campaign_in(measurements, sheet, dict(columns), measured_in, only_mix)
+    heading = replace(heading, mix=heading.mix or campaign.mix)
     # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
     title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
     if has_no_phase(campaign):
@@ -85,7 +86,7 @@ def command(
         names = curve.write(output)
         if page:
             shown = _data.part("reporting.pages", "stiffness_page")
-            names.append(shown.write_page(output, title, str(curve)).name)
+            names.append(shown.write_page(output, title, curve.rows).name)
         click.echo(f"{curve}\n\nWritten to {output}: {', '.join(names)}.")
         return
     with bars("step", on_terminal=True) as progress:

@@ -18,7 +18,7 @@ def command(
     output: Path = OUTPUT,
 ) -> None:
     """Hold a force (creep) or a displacement (relaxation) on a specimen; a CSV with the law's closed form beside."""
-    from asphalt_nscd.bending.hold import coarse, hold, told
+    from asphalt_nscd.bending.hold import doubt, hold, told
     from asphalt_nscd.bending.model import read_model
     from asphalt_nscd.files.store import write_table
     from asphalt_nscd.rheology.laws_io import read_bond_law
@@ -26,5 +26,5 @@ def command(
     table = hold(read_model(model), read_bond_law(law, temperature_C, held.band), held)
     write_table(output, table)
     click.echo(f"{output}: {told(table)}")
-    if doubt := coarse(table):
-        click.echo(f"warning: {doubt}", err=True)
+    if words := doubt(table):
+        click.echo(f"warning: {words}", err=True)

@@ -9,6 +9,7 @@ from click.core import ParameterSource
 from asphalt_nscd.bending.settings import Fitted, Load, Numerics
 from asphalt_nscd.cli import _progress
 from asphalt_nscd.cli._options import OUTPUTS, option, step
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.kinds import usual_steps_per_cycle
 
 
@@ -63,6 +64,9 @@ def command(
             )
             case = load_case(load, frequency, specimen.geometry)
             columns = simulate(files, temperature_C, case, numerics, options, specimen)
+        if "ended" in columns:
+            # the record is written; E*, which the test is for, there is none
+            raise InputError(f"{output}: {told(columns)}")
         click.echo(told(columns))
         if columns["broken_bonds"]:
             click.echo(f"warning: {damage(columns)}", err=True)

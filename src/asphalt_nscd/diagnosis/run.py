@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
+from asphalt_nscd.diagnosis.next_tests.orders import MOST, instructions
 from asphalt_nscd.diagnosis.next_tests.sweeps import Costs
 from asphalt_nscd.diagnosis.observed import repeatability
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.record import measured_limits, report, reported
-from asphalt_nscd.diagnosis.record.instructions import MOST, instructions
 from asphalt_nscd.diagnosis.record.law import law_of_mix, law_parameters, left_to_priors
 from asphalt_nscd.diagnosis.record.measured_limits import Progress
 from asphalt_nscd.diagnosis.record.mixture import Mixture, mixture

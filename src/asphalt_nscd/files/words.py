@@ -35,6 +35,11 @@ def joined(words: Sequence[str], last: str = "and") -> str:
     return f" {last} ".join(filter(None, [", ".join(words[:-1]), *words[-1:]]))
 
 
+def capital(words: str) -> str:
+    """The words with a capital first; units keep theirs."""
+    return f"{words[:1].upper()}{words[1:]}"
+
+
 def choice(option: str, menu: str) -> str:
     """What a user does to choose: give an option of the command line, or take what the page has in its place."""
     return menu if os.environ.get(ON_PAGE) else option

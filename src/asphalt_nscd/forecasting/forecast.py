@@ -28,8 +28,8 @@ OF_THE_MODEL = {
 # `data/mixes50` stay within at each temperature (docs/forecast.md).
 BAND = {
     "E_MPa": (400.0, 1000.0, 4000.0, 10000.0, 20000.0),
-    "log": (1.0, 0.85, 0.8, 0.75, 0.6),
-    "phase_deg": (15.0, 13.0, 13.0, 10.0, 7.5),
+    "log": (1.1, 0.85, 0.8, 0.75, 0.6),
+    "phase_deg": (15.0, 13.0, 13.0, 6.0, 6.0),
 }
 
 
@@ -96,7 +96,8 @@ def with_filler(grading: Grading, more: float) -> Grading:
     """The grading with so much `more` filler in place of all that is coarser."""
     sieve = np.union1d(grading.sieve, [FILLER])
     passing, filler = grading.passing_at(sieve), float(grading.passing_at(FILLER))
-    coarser = (passing - filler) / (1.0 - filler)
+    more = min(more, 1.0 - filler)
+    coarser = (passing - filler) / max(1.0 - filler, 1e-9)
     raised = filler + more + coarser * (1.0 - filler - more)
     lowered = passing * (filler + more) / max(filler, 1e-9)
     return Grading(sieve, np.where(sieve >= FILLER, raised, lowered))

@@ -1,13 +1,15 @@
 """E* of a mix: a differential scheme through all sizes of its grains, whose contacts bear too.
 
 **Volumes.** Grains are put into the binder from the finest up, each in what all finer ones have made of it (McLaughlin,
-Int. J. Eng. Sci. 15 (1977) 237; spheres). Filler counts with the voids of its dry packing (Rigden): binder in them
-moves with the grains. Air goes in with the grains that are coarser than filler, since it lies among them. Where the
-binder is stiff this alone gives the modulus.
+Int. J. Eng. Sci. 15 (1977) 237; spheres). Filler crowds itself: rigid, a share phi of it in a liquid stiffens that by
+(1 - phi / m)^(-2.5 m), m the share of grains in its dry packing (Krieger & Dougherty, Trans. Soc. Rheol. 3 (1959) 137;
+1 - m are the voids of Rigden). Air goes in with the grains that are coarser than filler, since it lies among them.
+Where the binder is stiff this alone gives the modulus.
 
 **Contacts.** Compacted grains all but touch. Each grain that goes in adds contacts with grains of its size, lubricated
 by what fits in their gap (`contact.py`): the mix of all grains finer than the gap. A share of them has air in place of
-binder. With `contacts` of mean stiffness k on each sphere of radius r, a volume fraction f of them has
+binder. They set in between FILLER, which has none, and TOUCHING, so that no sieve parts the two. With `contacts` of
+mean stiffness k on each sphere of radius r, a volume fraction f of them has
 
     K = f n k / (6 pi r),   G = f n k / (10 pi r)
 
@@ -37,6 +39,7 @@ FILLER, FINEST = (
 )  # m: the largest grain of filler, and the finest; between them evenly over log of size
 SIZES = np.concatenate([np.geomspace(FINEST, FILLER, 8), FILLER * 10.0 ** (np.arange(1, 46) / 14.0)])
 """Sizes (s,) [m] between which grains are put in; the same for all recipes, so that none jumps."""
+TOUCHING = 90e-6  # m: coarser grains have all their contacts
 SUBSTEP = 0.03  # of -ln(1 - fraction), of the differential equation
 LEAST_FREE = 0.02  # of mastic: binder outside the voids of its filler
 FRICTIONAL = 4.0  # contacts of a dry sphere: as many as rigid grains with friction need to stand
@@ -50,8 +53,8 @@ class Settings:
     `pressure` [Pa] in the skeleton; `binder_bulk`: K [Pa].
     """
 
-    contacts: float = 1.0
-    gap: float = 1e-9
+    contacts: float = 1.4
+    gap: float = 10e-9
     pressure: float = 10e3
     binder_bulk: float = 2.5e9
 
@@ -79,8 +82,10 @@ def _filled(recipe: Recipe, binder: np.ndarray, settings: Settings) -> tuple[Com
     for k in range(1, SIZES.size):
         more = grains[k] - grains[k - 1]
         if SIZES[k] <= FILLER:
-            fixed = grains[k - 1 : k + 1] / (1.0 - recipe.rigden_voids) / (liquid + grains[k - 1 : k + 1])
-            bulk, shear = _put_in(bulk, shear, stone, 0.0, float(np.log((1 - fixed[0]) / (1 - fixed[1]))))
+            packed = 1.0 - recipe.rigden_voids
+            free = 1.0 - grains[k - 1 : k + 1] / packed / (liquid + grains[k - 1 : k + 1])
+            room = np.log(np.maximum(free, LEAST_FREE))
+            bulk, shear = _put_in(bulk, shear, stone, 0.0, packed * float(room[0] - room[1]))
         elif more > 0.0:
             put = more + air[k] - air[k - 1]
             total = liquid + grains[k] + air[k]
@@ -148,14 +153,16 @@ def _contacts(
     """n k / (pi r) (n,) [Pa] of grains between two of SIZES, in what all `finer` made of the binder: (K, G) at each."""
     if not settings.contacts:
         return 0.0
-    curvature = 0.25 * np.sqrt(SIZES[k - 1] * SIZES[k])  # of two spheres of radius r it is r / 2
+    size = float(np.sqrt(SIZES[k - 1] * SIZES[k]))
+    touching = min(1.0, np.log(size / FILLER) / np.log(TOUCHING / FILLER))
+    curvature = 0.25 * size  # of two spheres of radius r it is r / 2
     gap = settings.gap / curvature
     edge, middle = (curvature * at for at in gaps(gap))
     bulk, shear = np.array(finer).transpose(1, 0, 2)
     confined = bulk + 4.0 / 3.0 * shear
     there = [_between(np.log(at), np.log(of)) / stone.plane for at, of in ((edge, shear), (middle, confined))]
     stiffness = contact_stiffness(there[0], there[1], gap) * stone.plane
-    return settings.contacts * stiffness / (2.0 * np.pi)
+    return settings.contacts * touching * stiffness / (2.0 * np.pi)
 
 
 def _between(size: Vector, log: Complex) -> Complex:
@@ -171,6 +178,8 @@ def _skeleton(recipe: Recipe, settings: Settings) -> tuple[float, float]:
     """K and G [Pa] of dry grains that stick under a pressure: Love and Weber for the force, Hertz, Mindlin."""
     stone, grains = recipe.aggregate, volumes(recipe)[0]
     solid = float(grains[-1] - grains[SIZES <= FILLER][-1])
+    if not solid:
+        return 0.0, 0.0
     # of spheres of radius 1: p = f n F / (4 pi), spot a^3 = 3 F (1/2) / (4 E'), k = 2 E' a
     force = 4.0 * np.pi * settings.pressure / (solid * FRICTIONAL)
     stiffness = 2.0 * stone.plane * float(np.cbrt(0.375 * force / stone.plane))

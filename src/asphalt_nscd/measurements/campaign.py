@@ -22,7 +22,7 @@ class Campaign:
     """Tests of a campaign in our columns, the files they came from, and sentences on how they were read.
 
     `test_type` is one of `kinds.TEST_TYPES`, or UNKNOWN; `without_tests` has a sentence for each folder some of whose
-    files hold no test, and for each table some of whose tests lack a phase.
+    files hold no test, and for each table some of whose tests lack a phase. `mix` is its name where a file says it.
     """
 
     table: Table
@@ -30,6 +30,7 @@ class Campaign:
     test_type: str = "bending"
     notes: tuple[str, ...] = field(default=())
     without_tests: tuple[str, ...] = ()
+    mix: str = ""
 
 
 def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> NDArray[np.float64]:

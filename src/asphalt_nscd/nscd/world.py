@@ -31,8 +31,10 @@ from asphalt_nscd.nscd.bonds.implicit_operator import factors
 from asphalt_nscd.nscd.bonds.law import AnyLaw
 from asphalt_nscd.nscd.bonds.strength import utilisations
 from asphalt_nscd.nscd.bonds.system import clusters, opening_operator
+from asphalt_nscd.nscd.contacts.couples import solve_with_couples
 from asphalt_nscd.nscd.contacts.friction import solve_contacts
 from asphalt_nscd.nscd.spheres.granular import near_pairs
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 from asphalt_nscd.nscd.stepping.energy import Energies, diagonal_form
 
@@ -60,16 +62,14 @@ class WorldBonds:
 
 @dataclass(frozen=True)
 class Surroundings:
-    """Planes, friction and gravity that the spheres of a world meet.
+    """Planes, contact law and gravity that the spheres of a world meet.
 
-    `plane_point` (p, 3) in m, `plane_normal` (p, 3) pointing to the spheres; `friction` between spheres,
-    `wall_friction` between spheres and planes; `gravity` in m/s2.
+    `plane_point` (p, 3) in m, `plane_normal` (p, 3) pointing to the spheres; `gravity` in m/s2.
     """
 
     plane_point: np.ndarray
     plane_normal: np.ndarray
-    friction: float
-    wall_friction: float
+    law: ContactLaw
     gravity: tuple[float, float, float] = (0.0, 0.0, -9.81)
 
 
@@ -168,7 +168,7 @@ class World:
         self.position, self.rotation, self.velocity = position, rotation, velocity
         self.sigma, self.memory = sigma, memory
         self.time += dt
-        return contacts.impulse.size // 3
+        return contacts.met
 
     def fragments(self) -> np.ndarray:
         """Number of the fragment that each sphere belongs to (n,), the largest fragment being 0."""
@@ -229,8 +229,8 @@ class World:
         drift = (memory - self.memory) / dt
         sums.dashpots += dt * self.law.dissipated(diagonal_form(weight), sigma, memory, drift)
         work = (contacts.impulse * (contacts.rows_met @ mean)).reshape(-1, 3)
-        sums.impact -= float(work[:, 0].sum())
-        sums.friction -= float(work[:, 1:].sum())
+        sums.impact -= float(work[: contacts.met, 0].sum())
+        sums.friction -= float(work[: contacts.met, 1:].sum() + work[contacts.met :].sum())
         sums.numerical += self._product(sigma - self.sigma, memory - self.memory)
         sums.numerical += dt * float(self._load @ change + (weight * sigma) @ (rate - operator @ mean))
 
@@ -240,10 +240,13 @@ class _Contacts:
     """Pairs that may meet within a step, and what they did in it."""
 
     rows: sparse.csr_matrix  # (3 c, 6 n) opening of each: normal, two tangents
+    turning: sparse.csr_matrix  # (3 c, 6 n) angular velocity between its bodies
     gap: np.ndarray  # (c,) m, at the start of the step
     friction: np.ndarray  # (c,)
-    rows_met: sparse.csr_matrix  # (3 c', 6 n) of those that closed
-    impulse: np.ndarray  # (3 c',) N s, theirs
+    arm: np.ndarray  # (c,) m, of the largest couple
+    rows_met: sparse.csr_matrix  # (3 c', 6 n) of those that closed; of a law with couples, then their turning
+    impulse: np.ndarray  # theirs: N s, then N m s
+    met: int = 0  # how many closed
     _kept: tuple[SuperLU, bytes, np.ndarray] | None = None
 
     @classmethod
@@ -267,30 +270,38 @@ class _Contacts:
         normal[spheres] = apart / np.linalg.norm(apart, axis=1, keepdims=True)
         point = world.position[first] + radius[first, None] * normal
         rows = opening_operator(first, second, _frames(normal), point, world.position)
-        friction = np.where(spheres, around.friction, around.wall_friction)
-        return cls(rows, gap, friction, rows[:0], np.empty(0))
+        friction = np.where(spheres, around.law.friction, around.law.wall_friction)
+        curvature = 1.0 / radius[first]
+        curvature[spheres] += 1.0 / radius[second[spheres]]
+        turning = _turning(first, np.where(spheres, second, -1), n)
+        return cls(rows, turning, gap, friction, around.law.rolling / curvature, rows[:0], np.empty(0))
 
     def solve(self, velocity: np.ndarray, factor: SuperLU, dt: float) -> np.ndarray:
         """The velocity (6 n,) after the impulses of all that would close within the step."""
         # an overlap is not pushed open, which would add energy
         gap, touching = np.maximum(self.gap, 0.0), np.zeros(self.gap.size, bool)
         corrected = velocity
-        self.rows_met, self.impulse = self.rows[:0], np.empty(0)
+        self.rows_met, self.impulse, self.met = self.rows[:0], np.empty(0), 0
         while True:
             closing = gap + dt * (self.rows[::3] @ corrected) < -CLOSED
             if not (closing & ~touching).any():
                 return corrected
             touching |= closing
-            rows = self.rows_met = self.rows[np.repeat(touching, 3)]
+            chosen, self.met = np.repeat(touching, 3), int(touching.sum())
+            rows = self.rows_met = self.rows[chosen]
+            if self.arm.any():
+                rows = self.rows_met = sparse.vstack([rows, self.turning[chosen]], format="csr")
             response = self._response(touching, rows, factor)
             free = rows @ velocity
-            free[::3] += gap[touching] / dt
+            free[: 3 * self.met : 3] += gap[touching] / dt
             delassus = rows @ response
             # symmetric but for rounding of the factors
-            solved = solve_contacts(
-                0.5 * (delassus + delassus.T), free, self.friction[touching], tolerance=TOLERANCE
-            )
-            self.impulse = solved.require_converged().reactions
+            delassus, friction = 0.5 * (delassus + delassus.T), self.friction[touching]
+            if self.arm.any():
+                self.impulse = solve_with_couples(delassus, free, friction, self.arm[touching], TOLERANCE)
+            else:
+                solved = solve_contacts(delassus, free, friction, tolerance=TOLERANCE)
+                self.impulse = solved.require_converged().reactions
             corrected = velocity + response @ self.impulse
 
     def _response(self, touching: np.ndarray, rows: sparse.csr_matrix, factor: SuperLU) -> np.ndarray:
@@ -299,6 +310,18 @@ class _Contacts:
         if self._kept is None or self._kept[0] is not factor or self._kept[1] != asked[1]:
             self._kept = *asked, factor.solve(rows.T.toarray())
         return self._kept[2]
+
+
+def _turning(first: np.ndarray, second: np.ndarray, n: int) -> sparse.csr_matrix:
+    """Rows (3 c, 6 n) of the angular velocity of spheres `second` against `first`; -1: a plane, which does not turn."""
+    row, signs = (
+        3 * np.arange(first.size)[:, None] + np.arange(3),
+        np.repeat([[-1.0, 1.0]], first.size, axis=0),
+    )
+    signs[second < 0, 1] = 0.0
+    places = [6 * body[:, None] + 3 + np.arange(3) for body in (first, np.maximum(second, 0))]
+    entries = np.repeat(signs.T.ravel(), 3), (np.tile(row.ravel(), 2), np.concatenate(places).ravel())
+    return sparse.csr_matrix(entries, shape=(3 * first.size, 6 * n))
 
 
 def _frames(normal: np.ndarray) -> np.ndarray:

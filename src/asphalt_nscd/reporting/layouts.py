@@ -61,7 +61,7 @@ class Layout(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
         """Rows in the order of the long table."""
         row, column, quantity = self.crossed
         wide = table.pivot(index=row, columns=column, values=quantity).loc[table[row].unique()]
-        return wide[[*self.columns]].rename_axis(self.heading).reset_index()
+        return wide.rename(columns=str)[[*self.columns]].rename_axis(self.heading).reset_index()
 
 
 def _beside(ladder: pd.DataFrame, error: str) -> pd.DataFrame:

@@ -82,23 +82,10 @@ def _number(text: str) -> float:
 def timing_summary(table: pd.DataFrame, elapsed_s: float) -> str:
     """The rules that take a twentieth of the time or more, the others in one line, the sum, and how long it took."""
     long = table["share_percent"] >= 5.0
-    lines = [
-        "| rule | jobs | wall time, s | memory, MB | share, % |",
-        "|---|" + "---:|" * 4,
-        *(_line(rule, table[table["rule"] == rule]) for rule in table.loc[long, "rule"]),
-        _line("all others", table[~long]),
-        _line("sum", table),
-        "",
-        f"Jobs ran side by side, so that all this took {elapsed_s / 60.0:.1f} minutes.",
-    ]
-    return "\n".join(lines) + "\n"
-
-
-def _line(name: str, rules: pd.DataFrame) -> str:
-    values = [
-        rules["jobs"].sum(),
-        rules["wall_s"].sum(),
-        rules["memory_MB"].max(),
-        rules["share_percent"].sum(),
-    ]
-    return f"| {name} | " + " | ".join("" if pd.isna(value) else f"{value:.0f}" for value in values) + " |"
+    few = {"jobs": "sum", "wall_s": "sum", "memory_MB": "max", "share_percent": "sum"}
+    shown = table[long].set_index("rule")[[*few]]
+    for name, rules in (("all others", table[~long]), ("sum", table)):
+        shown.loc[name] = rules.agg(few)
+    shown.columns = ["jobs", "wall time, s", "memory, MB", "share, %"]
+    grid = shown.rename_axis("rule").reset_index().to_markdown(index=False, floatfmt=".0f", missingval="")
+    return f"{grid}\n\nJobs ran side by side, so that all this took {elapsed_s / 60.0:.1f} minutes.\n"

@@ -10,6 +10,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 
 NOTABLE = 0.01  # of the smaller radius: an overlap that is said
+FURTHEST = 1e6  # m
 TOUCHING = 1e-6  # m, gap below which two spheres count as touching
 
 
@@ -18,6 +19,8 @@ def require_spheres(name: object, position: np.ndarray, radius: np.ndarray) -> N
 
     Compiled code looks at no bounds: a radius below zero would have it write outside of its arrays.
     """
+    if np.ma.isMaskedArray(position) or np.ma.isMaskedArray(radius):
+        raise InputError(f"{name}: holds masked arrays; give plain ones, without what is masked.")
     position, radius = np.asarray(position), np.asarray(radius)
     if (
         position.shape != (radius.size, 3)
@@ -33,6 +36,10 @@ def require_spheres(name: object, position: np.ndarray, radius: np.ndarray) -> N
     for bad, problem in (
         (~np.isfinite(np.column_stack([position, radius])).all(axis=1), "is not finite"),
         (radius <= 0.0, "has a radius of zero or less"),
+        (
+            np.abs(np.column_stack([position, radius])).max(axis=1) > FURTHEST,
+            "is more than 1000 km away or wide",
+        ),
     ):
         if bad.any():
             raise InputError(f"{name}: sphere {int(bad.argmax()) + 1} {problem}; correct or remove it.")

@@ -10,6 +10,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.nscd.lanes import WIDTH
 from asphalt_nscd.nscd.spheres import granular, neighbours
 from asphalt_nscd.nscd.spheres.blocks import deal_blocks
+from asphalt_nscd.nscd.spheres.laws import FORCE, WITH_COUPLE, ContactLaw
 from asphalt_nscd.nscd.spheres.slabs import Slabs, Workspace, slabs_of, workspace_for
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.trimming import layer_height
@@ -88,8 +89,8 @@ class GranularBed:
 
     `position` (n, 3) and `radius` (n,) in m; `velocity` (n + p, 6) in m/s, linear and spin (surface velocity);
     `inverse_mass` (n + p,) in 1/kg; `plane_point` (p, 3) in m; `plane_normal` (p, 3) has unit vectors that point to the
-    spheres; `gravity` (3,) in m/s2. `wall_friction` None means that of spheres. `time` [s], `steps` and `sweeps` are
-    those made so far. Any number of threads in `team` gives the same numbers.
+    spheres; `gravity` (3,) in m/s2. `time` [s], `steps` and `sweeps` are those made so far. Any number of threads in
+    `team` gives the same numbers.
     """
 
     position: np.ndarray
@@ -98,9 +99,8 @@ class GranularBed:
     inverse_mass: np.ndarray
     plane_point: np.ndarray
     plane_normal: np.ndarray
-    friction: float
+    law: ContactLaw
     restitution: float = 0.0
-    wall_friction: float | None = None
     gravity: np.ndarray = field(default_factory=lambda: np.array([0.0, 0.0, -9.81]))
     time: float = 0.0
     steps: int = 0
@@ -129,14 +129,12 @@ class GranularBed:
         radius: np.ndarray,
         box: tuple[float, float, float],
         density: float,
-        friction: float,
+        law: ContactLaw,
         restitution: float = 0.0,
-        wall_friction: float | None = None,
     ) -> GranularBed:
         """Spheres at rest in a box [0, length] x [0, width] x [0, height]; plane 5 is its top.
 
-        `position` (n, 3), `radius` (n,) and `box` in m, `density` of the spheres in kg/m3. `friction` is that between
-        spheres, `wall_friction` that with the box (None: the same).
+        `position` (n, 3), `radius` (n,) and `box` in m, `density` of the spheres in kg/m3.
         """
         size = np.asarray(box, float)
         normal = np.concatenate([np.eye(3), -np.eye(3)])
@@ -149,9 +147,8 @@ class GranularBed:
             inverse_mass=np.concatenate([1.0 / mass, np.zeros(6)]),
             plane_point=point,
             plane_normal=normal,
-            friction=friction,
+            law=law,
             restitution=restitution,
-            wall_friction=wall_friction,
         )
 
     def let_fall(self) -> None:
@@ -181,21 +178,8 @@ class GranularBed:
         if speed.mean() > FALLING:
             enough, penetration = numerics.falling_sweeps, numerics.falling_penetration
         meeting = self._search(numerics, speed)
-        sweeps, change, overlap = self.team.run(
-            granular.step,
-            self.position,
-            self.radius,
-            self.velocity,
-            self.inverse_mass,
-            self.plane_point,
-            self.plane_normal,
-            self.gravity,
-            self._slabs,
-            self._workspace,
-            self.drive,
+        how = granular.StepNumerics(
             dt,
-            (self.friction, self.friction if self.wall_friction is None else self.wall_friction),
-            self.restitution,
             numerics.recovery_speed,
             numerics.allowed_overlap,
             meeting,
@@ -203,7 +187,11 @@ class GranularBed:
             penetration,
             enough,
             numerics.most_sweeps,
-        )[0]
+        )
+        bodies = self.position, self.radius, self.velocity, self.inverse_mass
+        planes, room = (self.plane_point, self.plane_normal), (self._slabs, self._workspace)
+        moved = bodies, planes, *room, self.gravity, self.drive, self.law, self.restitution, how
+        sweeps, change, overlap = self.team.run(granular.step, *moved)[0]
         self.plane_point = self.plane_point + dt * self.velocity[n:, :3]
         self.overlap = max(self.overlap, overlap)
         self.time += dt
@@ -277,7 +265,8 @@ class GranularBed:
         """Take these pairs, and workspace to work on them."""
         self._start, self._other = start, other
         if self._workspace is None:
-            self._workspace = workspace_for(0, self.inverse_mass.size, len(self.plane_point))
+            numbers = WITH_COUPLE if self.law.rolling else FORCE
+            self._workspace = workspace_for(0, self.inverse_mass.size, len(self.plane_point), numbers)
         last_body = self.inverse_mass.size - 1
         begin, pair, bodies = slabs_of(self.team, self.position[: start.size - 1], start, other, last_body)
         self._slabs, self._workspace = deal_blocks(self.team, begin, pair, bodies, self._workspace)

@@ -11,6 +11,7 @@ import numpy as np
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load, save
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.contents import DEPOSIT, Content
 from asphalt_nscd.specimen.counts import read_counts
@@ -90,16 +91,10 @@ def pour_on(
 
 
 def _bed(position: np.ndarray, radius: np.ndarray, pouring: Pouring) -> GranularBed:
-    surfaces = pouring.surfaces
-    return GranularBed.spheres_in_box(
-        position,
-        radius,
-        pouring.box,
-        DENSITY,
-        surfaces.friction,
-        surfaces.restitution,
-        surfaces.wall_friction,
-    )
+    given = pouring.surfaces
+    wall_friction = given.friction if given.wall_friction is None else given.wall_friction
+    law = ContactLaw(float(given.friction), float(wall_friction), float(given.rolling_friction))
+    return GranularBed.spheres_in_box(position, radius, pouring.box, DENSITY, law, given.restitution)
 
 
 def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
@@ -129,8 +124,9 @@ def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
         )
     attributes = {
         "seed": pouring.seed,
-        "friction": bed.friction,
-        "wall_friction": bed.friction if bed.wall_friction is None else bed.wall_friction,
+        "friction": bed.law.friction,
+        "wall_friction": bed.law.wall_friction,
+        **({"rolling_friction": bed.law.rolling} if bed.law.rolling else {}),
         "restitution": bed.restitution,
         "stroke_m": vibration.stroke,
         "vibration_Hz": vibration.frequency,

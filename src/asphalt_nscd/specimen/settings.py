@@ -29,6 +29,9 @@ class Surfaces(Ranged):
         Coefficient of friction with walls; if not given, that between spheres.
     restitution : float
         Speed after an impact over that before it.
+    rolling_friction : float
+        Couple that resists the rolling of spheres, over the force that presses them and the radius, 1/R the sum
+        of 1/radius; a sphere alone then rests on slopes up to this.
 
     Examples
     --------
@@ -40,6 +43,7 @@ class Surfaces(Ranged):
     # smooth walls lower the usual layer from 63.5 to 62.1 mm (docs/pouring.md)
     wall_friction: float | None = option(default=None, low=0.0, high=100.0)
     restitution: float = option(default=0.0, low=0.0, below=1.0)
+    rolling_friction: float = option(default=0.0, low=0.0, high=10.0)
 
 
 @dataclass(frozen=True)

@@ -90,7 +90,7 @@ def read_campaign(
     _require_named_specimens(paths, parts)
     parts = drop_repeated(parts, notes)
     without_tests += dict.fromkeys(part.read.without_phase for part in parts if part.read.without_phase)
-    _require_one_mix(parts)
+    called = _one_mix(parts)
     forms = sorted({part.read.form for part in parts})
     if len(forms) > 1:
         raise InputError(
@@ -105,7 +105,7 @@ def read_campaign(
     )
     files = tuple(dict.fromkeys(part.path for part in parts))
     notes = [*_said(parts), *notes]
-    return Campaign(table, files, kind, tuple(notes), tuple(without_tests)), forms[0]
+    return Campaign(table, files, kind, tuple(notes), tuple(without_tests), called), forms[0]
 
 
 def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: list[str]) -> str:
@@ -179,13 +179,15 @@ def _isotherm(table: Table) -> NDArray[np.float64]:
     )
 
 
-def _require_one_mix(parts: Sequence[Part]) -> None:
+def _one_mix(parts: Sequence[Part]) -> str:
+    """The mix that all files are of, where they name it."""
     mixes = {part.read.mix: part.source for part in parts if part.read.mix}
     if len(mixes) > 1:
         named = ", ".join(f"{mix} in {source}" for mix, source in list(mixes.items())[:4])
         raise InputError(
             f"{len(mixes)} mixes are given together ({named}), and a diagnosis is of one mix; give the files of one."
         )
+    return next(iter(mixes), "")
 
 
 def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:

@@ -184,5 +184,6 @@ def _assumed(cells: Cells, place: Place) -> tuple[Meaning, str]:
         return Meaning(quantity, "C"), f"because {warmest:g} degF would be too cold for the warmest test"
     stem, _, unit = quantity.rpartition("_")
     raise InputError(
-        f"{cells.path}: column {name!r} does not say its unit; write it after the name, as in {stem} ({unit})."
+        f"{cells.path}: column {name!r} does not say its unit; write it after the name, as in {stem} ({unit})"
+        + choice(".", ", or choose it in its menu below.")
     )

@@ -21,7 +21,7 @@ from asphalt_nscd.table_import.heading import (
     quantity_of,
     read_heading,
 )
-from asphalt_nscd.table_import.quantities import units_in
+from asphalt_nscd.table_import.quantities import is_unit, units_in
 from asphalt_nscd.table_import.words import ABSENT, COMPUTED_SHEET, OF_SPECIMENS
 
 _ABOVE = 4  # lines above a matrix that say what it is
@@ -195,7 +195,11 @@ def _of_specimens(rows: list[Row]) -> Iterator[_Matrix]:
         headings = _quantities([row for _, row in rows[max(0, at - 2) : at]], head, min(labels, default=0))
         column = next(iter(headings.values())).column if len(headings) == 1 else None
         measures = {n: cell for n, cell in labels.items() if not OF_SPECIMENS.fullmatch(cell)}
-        if column is None or not column.unit or any(map(units_in, measures.values())):
+        if (
+            column is None
+            or not column.unit
+            or any(units_in(cell) and not is_unit(cell) for cell in measures.values())
+        ):
             continue
         others = [cell for n, cell in labels.items() if n not in measures]
         matrix = _Matrix((head[places[0]], head[places[1]]), left_out=others)

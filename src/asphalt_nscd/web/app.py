@@ -34,6 +34,7 @@ from asphalt_nscd.web.work import SECONDS_TO_DIAGNOSE, SECONDS_TO_READ, Choices,
 MOST_BYTES = 40_000_000  # of all files of one drop
 MOST_FILES = 100
 MOST_DESKS = 20
+USUAL = ("E_MPa", "phase_deg", "temperature_C", "frequency_Hz", "specimen")  # first in the menus of columns
 # What a page may load: nothing from elsewhere.
 # Inline, because each of our pages is one file with its own style and script.
 POLICY = (
@@ -106,6 +107,7 @@ def create_app(token: str | None = None) -> Flask:
     app = Flask(__name__, static_folder=None)
     token = secrets.token_urlsafe(24) if token is None else token
     desks = Desks()
+    app.jinja_env.policies["json.dumps_kwargs"] = {"sort_keys": False}  # the menus have an order of their own
     app.config.update(TOKEN=token, DESKS=desks, MAX_CONTENT_LENGTH=MOST_BYTES, MAX_FORM_PARTS=MOST_FILES + 10)
 
     @app.before_request
@@ -154,7 +156,8 @@ def create_app(token: str | None = None) -> Flask:
     @app.get("/<token>/<desk>/")
     def page(token: str, desk: str) -> str:
         _named(desk)
-        units = {name: list(of) for name, (_, of) in MEASURED.items()}
+        names = dict.fromkeys((*USUAL, *MEASURED))
+        units = {name: list(MEASURED[name][1]) for name in names}
         heading = {name: one.help for name, one in options_of(Heading).items()}
         return render_template(
             "page.html",

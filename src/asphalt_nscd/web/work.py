@@ -142,6 +142,7 @@ def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
     return {
         "form": form,
         "test_type": campaign.test_type,
+        "mix": campaign.mix,
         "notes": [_shorten_paths(note, paths) for note in campaign.notes],
         "tests": len(campaign.table.lines),
         "specimens": list(table["specimen"].unique()),
@@ -167,19 +168,22 @@ def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
         for cells in tables:
             for n, heading in enumerate(headings_of(cells)):
                 column = heading.column
-                sample = [row[n] for _, row in cells.rows[:3] if n < len(row)]
-                if column is None and not any(sample):
+                sample = [row[n] for _, row in cells.rows if row[n]][:3]
+                if column is None and not sample:
                     continue
-                found.setdefault(
+                shown = found.setdefault(
                     cells.header[n],
                     {
                         "name": cells.header[n],
                         "quantity": "" if column is None else column.quantity,
                         "unit": "" if column is None else column.unit or _missing_unit(column.quantity),
-                        "condition": ", ".join(heading.at.values()),
+                        "condition": "",
                         "cells": ", ".join(sample),
                     },
                 )
+                # Columns of several specimens may have one name.
+                conditions = (shown["condition"], *heading.at.values())
+                shown["condition"] = ", ".join(dict.fromkeys(filter(None, conditions)))
     return list(found.values())[:60]
 
 
@@ -236,7 +240,7 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
     if has_no_phase(campaign):
         curve = fit_stiffness(campaign)
         curve.write(output)
-        stiffness_page.write_page(output, title, str(curve))
+        stiffness_page.write_page(output, title, curve.rows)
         return {"reported": curve.reported, "page": diagnosis_page.PAGE, "files": _names(output)}
     diagnosis = diagnose(
         campaign,

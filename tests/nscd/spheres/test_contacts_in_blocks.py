@@ -9,6 +9,7 @@ from naive.granular import blocks_in_order, sweep_one_by_one
 from asphalt_nscd.nscd.lanes import WIDTH
 from asphalt_nscd.nscd.spheres.blocks import deal_blocks, deal_lively, first_lively, give_back, number_blocks
 from asphalt_nscd.nscd.spheres.gauss_seidel import sweep_blocks
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.nscd.spheres.slabs import private_rows, workspace_for
 from asphalt_nscd.nscd.team import Team
 
@@ -113,7 +114,18 @@ def test_sweeps_block_by_block_are_those_one_by_one(relaxation):
     for quiet, calm in ((0.3, np.inf), (np.inf, 0.5)):
         workspace.noted[:-1] = 7.0
         *sums, noted = sweep_blocks(
-            blocks, contacts, begin, count, 8, (0.3, 0.3), relaxation, quiet, calm, workspace, room, spare
+            blocks,
+            contacts,
+            begin,
+            count,
+            8,
+            ContactLaw(0.3, 0.3),
+            relaxation,
+            quiet,
+            calm,
+            workspace,
+            room,
+            spare,
         )
         others = np.delete(workspace.noted[:-1], [*range(8, 8 + noted), spare], axis=0)
         assert (others == 7.0).all()  # they may be those of another thread

@@ -47,8 +47,7 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap, penetration, l
     box, times = (length, 0.012, 0.012), 1 if length == 0.012 else 4
     rng = np.random.default_rng(9 if times == 1 else 17)
     position, radius = random_lattice(np.array([3e-3, 6e-3]), times * np.array([10, 3]), box, rng)
-    pile = balls(position, radius, box, 0.4, restitution)
-    pile.wall_friction = 0.2
+    pile = balls(position, radius, box, 0.4, restitution, wall_friction=0.2)
     pile.team = Team(1 if times == 1 else 2)
     pile.velocity[: radius.size] = rng.normal(0, 0.5, (radius.size, 6))
     pile.position[1] = pile.position[0] + (radius[:2].sum() - 1e-5) * np.array([0.6, 0.0, 0.8])  # an overlap
@@ -94,8 +93,7 @@ def test_naive_twin_of_the_driven_wall(push):
     """A heap under a plate between rails, which yields to 0.5 N and keeps its speed at 250 N: to 1e-11."""
     rng = np.random.default_rng(9)
     position, radius = random_lattice(np.array([3e-3, 6e-3]), np.array([10, 3]), (0.012,) * 3, rng)
-    pile = balls(position, radius, (0.012,) * 3, 0.4)
-    pile.wall_friction = 0.2
+    pile = balls(position, radius, (0.012,) * 3, 0.4, wall_friction=0.2)
     pile.velocity[: radius.size] = rng.normal(0, 0.2, (radius.size, 6))
     pile.hang_wall(pile.top() + 1e-5, 2e-3)
     pile.drive[:] = -0.2, push

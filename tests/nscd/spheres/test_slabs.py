@@ -7,6 +7,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 from asphalt_nscd.nscd.spheres.slabs import FAIR, LAYER, MOST_SLABS, STRIPS, first_and_end, part_of, slabs_of
 from asphalt_nscd.nscd.team import Team
@@ -122,7 +123,7 @@ def test_what_earlier_steps_left_in_the_room_does_not_count():
         position, radius = random_lattice(
             np.array([2e-3, 4e-3]), np.array([80, 10]), (0.04, 0.014, 0.03), np.random.default_rng(3)
         )
-        pile = GranularBed.spheres_in_box(position, radius, (0.04, 0.014, 0.03), 2600.0, 0.2)
+        pile = GranularBed.spheres_in_box(position, radius, (0.04, 0.014, 0.03), 2600.0, ContactLaw(0.2, 0.2))
         for _ in range(60):
             pile.advance(PouringNumerics())
             impulse = pile.impulse

@@ -20,6 +20,7 @@ from asphalt_nscd.nscd.spheres.gauss_seidel import (
     sweep_until,
 )
 from asphalt_nscd.nscd.spheres.granular import pack_motion, pack_place, pack_planes, pack_slab
+from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.nscd.spheres.slabs import workspace_for
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.deposit import settle
@@ -50,7 +51,7 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
             np.zeros(32, int),
             slabs,
             workspace,
-            (0.5, 0.5),
+            ContactLaw(0.5, 0.5),
             np.zeros(2),
             tolerance,
             np.inf,
@@ -65,7 +66,8 @@ def test_only_a_sweep_over_all_contacts_ends_a_step(tolerance):
     once_more = [
         sweep_blocks(
             slabs.blocks, workspace.contacts, slabs.begin[slab], slabs.begin[slab + 1] - slabs.begin[slab],
-            WIDTH * slabs.begin[slab], (0.5, 0.5), 1.0, 0.0, np.inf, workspace, ROOM, len(workspace.noted) - 2,
+            WIDTH * slabs.begin[slab], ContactLaw(0.5, 0.5), 1.0, 0.0, np.inf, workspace, ROOM,
+            len(workspace.noted) - 2,
         )
         for slab in sorted(numbers, key=lambda slab: slab % 2)
     ]  # fmt: skip
@@ -95,7 +97,7 @@ def sweeps_of_a_squeezed_grain(relaxation):
             0,
             slabs.begin[1],
             0,
-            (0.0, 0.0),
+            ContactLaw(),
             relaxation,
             np.inf,
             np.inf,

@@ -4,9 +4,18 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.forecasting.binders import crossover_of, shear_modulus
+from asphalt_nscd.forecasting.binders import ViscosityShift, crossover_of, shear_modulus
 from asphalt_nscd.forecasting.scheme import modulus_of_mix
-from studies.forecast.blind import errors, forecast_all, grading_of, recipe_of_row, shifted, try_numbers
+from studies.forecast.blind import (
+    errors,
+    forecast_all,
+    grading_of,
+    own_law,
+    recipe_of_row,
+    shifted,
+    try_binders,
+    try_numbers,
+)
 
 ROW = {
     "mix": 7,
@@ -68,9 +77,32 @@ def test_a_mix_drawn_from_the_forecast_is_met_and_a_refused_one_is_named(content
     assert mixes["mix"].tolist() == [7, 8] and mixes["version"][0] == "abc" and mixes["version"][1] != ""
     assert "aggregate fills" in mixes["refused"][1] and not mixes["refused"][0]
     assert mixes["factor_forecast"][0] == pytest.approx(3.0) and set(table["mix"]) == {7}
-    tried = try_numbers(pd.DataFrame([ROW, {**ROW, "mix": 8}]), moduli, content)
-    row = tried[(tried.contacts == 1.0) & (np.isclose(tried.gap_nm, 1.0))].iloc[0]
-    assert (row.factor_all, row.factor_odd, row.phase_even_deg) == pytest.approx((3.0, 3.0, 3.0), rel=1e-6)
+    both = pd.DataFrame([ROW, {**ROW, "mix": 8}])
+    tried, left_out = try_numbers(both, moduli, content, table)
+    row = tried[(tried.contacts == 1.4) & np.isclose(tried.gap_nm, 10.0)].iloc[0]
+    assert (row.factor, row.phase_deg) == pytest.approx((3.0, 3.0), rel=1e-6)
+    assert left_out["mixes"].tolist() == ["7 to 8", "all"] and (left_out.factor[0], left_out.E_in_band[0]) > (
+        1.0,
+        0.0,
+    )
+    binders = try_binders(both, moduli, content).set_index("index")
+    assert binders.factor[1.8] == pytest.approx(3.0) and (binders.factor.drop(1.8) - 3.0).abs().min() > 0.01
+
+
+def test_a_law_of_each_mix_meets_a_linear_mix_alone(content, points):
+    """A linear mix is met in modulus and phase, by its modulus alone too; ten degrees above that are not."""
+    grid = pd.DataFrame(
+        [(t, f) for t in (4.4, 21.1, 37.8, 54.4) for f in (0.1, 1.0, 10.0)],
+        columns=["temperature_C", "frequency_Hz"],
+    )
+    at = grid.assign(binder_viscosity_Pa_s=grid["temperature_C"].map(ViscosityShift(10.98, -3.68).viscosity))
+    recipe = recipe_of_row(ROW, at, content)
+    truth = modulus_of_mix(recipe, recipe.binder_modulus())
+    linear = at.assign(E_MPa=1e-6 * np.abs(truth), phase_deg=np.degrees(np.angle(truth)))
+    for weight, reach in ((1.0, 0.02), (0.0, 0.06)):
+        assert np.sqrt((np.abs(np.log(own_law(linear, weight) / truth)) ** 2).mean()) < reach
+    turned = np.degrees(np.angle(own_law(linear.assign(phase_deg=linear.phase_deg + 10.0), 0.0)))
+    assert np.abs(turned - linear.phase_deg - 10.0).min() > 5.0
 
 
 def test_a_shift_of_time_is_found(content, points):

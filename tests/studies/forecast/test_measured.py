@@ -5,11 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.optimize import brentq
 from scipy.stats import f
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.recipe import read_recipe
+from asphalt_nscd.forecasting.rivals import hirsch
 from studies.forecast.mixes import best_map, compare, decades_slower, measured_map, overall, read_pairs
+from studies.forecast.slopes import compare_slopes
 from studies.forecast.voids import compare_voids
 
 
@@ -120,6 +123,35 @@ def test_cost_of_air_is_measured_within_mixes(tmp_path, recipe):
         assert row.standard_error_percent == pytest.approx(0.0, abs=1e-6)
         assert -30.0 < row.forecast_percent < 0.0 and -15.0 < row.hirsch_percent < -3.0
     assert (one.temperature_C, one.frequency_Hz) == (20, 1) and np.isnan(pooled.temperature_C)
+
+
+def test_slopes_are_those_of_one_percent_at_the_measured_modulus(recipe):
+    """By hand: Hirsch at one modulus of the binder, for a percent of air or half of one of binder to each side."""
+    row = {
+        "campaign": "c",
+        "temperature_C": 20,
+        "specimens": 9,
+        "air_percent": 6.0,
+        "binder_percent": 5.0,
+        "E_MPa": 4e3,
+    }
+    row |= {f"{of}_{what}_percent": -9.0 for of in ("air", "binder") for what in ("slope", "error")}
+    found = compare_slopes(pd.DataFrame([row]), recipe).set_index("of")
+    own = replace(recipe, voids=0.06, binder_share=0.05)
+
+    def modulus(mix, binder):
+        known = type("", (), {"complex_modulus": lambda self, omega, temperature: np.array([binder + 0j])})()
+        return float(np.abs(hirsch(replace(mix, binder=known)))[0])
+
+    binder = brentq(lambda e: modulus(own, e) - 4e9, 1e5, 1e9)
+    air = np.log(modulus(replace(own, voids=0.07), binder) / modulus(replace(own, voids=0.05), binder)) / 0.02
+    more = np.log(
+        modulus(replace(own, binder_share=0.055), binder) / modulus(replace(own, binder_share=0.045), binder)
+    )
+    assert found.hirsch["air"] == pytest.approx(air, rel=0.02) and found.hirsch["binder"] == pytest.approx(
+        more / 0.01, rel=0.02
+    )
+    assert found.forecast["air"] < 0.0 and found.measured["binder"] == -9.0
 
 
 def test_pooled_scatter_is_that_of_specimens(tmp_path, recipe):

@@ -11,6 +11,7 @@ from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS
 from asphalt_nscd.diagnosis.next_tests.sweeps import BEYOND, COLDEST, METAL, NEW, WARMEST, Costs, temperatures
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.words.sentences import band, numbers
 from asphalt_nscd.files.words import counted, joined, specimen_named
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 
@@ -18,7 +19,6 @@ Orders = list[dict[str, Any]]
 CLEAR = 3.0  # standard errors of an excess phase
 STRAINS = 25, 75  # 1e-6
 HALF = ", at half the strain"
-MANY = 4  # frequencies from which only the ends are told
 
 
 def gauges(done: Observations, costs: Costs) -> Orders:
@@ -68,7 +68,7 @@ def strains(done: Observations, costs: Costs, excesses: Sequence[Mapping[str, An
     largest = max(clear, key=lambda one: one["excess_deg"])
     at, frequencies, specimen = largest["temperature_C"], done.frequencies.tolist(), done.names[0]
     act = (
-        f"test {specimen_named(specimen)} at {at:g} degC and {' and '.join(f'{s:g}' for s in STRAINS)} microstrain, by "
+        f"test {specimen_named(specimen)} at {at:g} degC and {numbers(STRAINS)} microstrain, by "
         "a haversine and by tension-compression, raw signals kept"
     )
     why = (
@@ -130,7 +130,7 @@ def _order(
     frequencies = done.frequencies.tolist()
     hours = sum(costs.hours("", t, frequencies) for name in names for t in at)
     hours += costs.new_specimen * (NEW in names)
-    words = f"{act} at {joined([f'{t:g}' for t in at])} degC"
+    words = f"{act} at {numbers(at)} degC"
     return content(words, why, hours, (names, at, frequencies))
 
 
@@ -148,7 +148,7 @@ def content(
     """
     names, at, frequencies = tests
     return {
-        "text": f"{hours:.1f} h: {act}, {band(frequencies)}{HALF * half}.",
+        "text": f"{round(hours, 2):.1f} h: {act}, {band(frequencies)}{HALF * half}.",
         "act": act,
         "purpose": why[0],
         "why": why[1],
@@ -168,10 +168,3 @@ def named(specimens: Sequence[str]) -> str:
     if len(own) > 1 and specimen_named(own[0]) != own[0]:
         return joined([f"specimens {joined(own)}", *others])
     return joined([*map(specimen_named, own), *others])
-
-
-def band(f: Sequence[float]) -> str:
-    """Frequencies [Hz], ascending, in words: `1 and 10 Hz`, `0.1 to 25 Hz (6 frequencies)`."""
-    if len(f) < MANY:
-        return f"{joined([f'{x:g}' for x in f])} Hz"
-    return f"{f[0]:g} to {f[-1]:g} Hz ({len(f)} frequencies)"

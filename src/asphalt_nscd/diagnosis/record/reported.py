@@ -46,7 +46,7 @@ def tested(mix: Mixture, temperature: Vector, frequency: Vector) -> NDArray[np.b
     return np.asarray(within & (reduced >= there.min() / NEAR) & (reduced <= there.max() * NEAR))
 
 
-def _table(temperature: Vector, frequency: Vector, ends: tuple[Complex, Complex, Complex]) -> pd.DataFrame:
+def table_of(temperature: Vector, frequency: Vector, ends: tuple[Complex, Complex, Complex]) -> pd.DataFrame:
     """One row for each condition, of ln E* and both ends of its interval."""
     columns = {"temperature_C": temperature, "frequency_Hz": frequency}
     for part, unit, of in (
@@ -71,15 +71,15 @@ def standard_values(mix: Mixture, law: LawOfMix | None) -> pd.DataFrame:
     there, known = tested(mix, temperature, frequency), None if law is None else law.uncertainty
     free = mix_modulus(mix, temperature, frequency)
     if law is not None and known is not None:
-        taken, beyond = there, _law_with_band(law.law, known, temperature, frequency)
+        taken, beyond = there, law_with_band(law.law, known, temperature, frequency)
     else:
         taken, beyond = there | (np.arange(there.size) == 0), (np.full(there.size, np.nan + 1j * np.nan),) * 3
     one, low, high = (np.where(taken, *pair) for pair in zip(free, beyond, strict=True))
-    table = _table(temperature, frequency, (one, low, high))
+    table = table_of(temperature, frequency, (one, low, high))
     return table.assign(within_the_tests=there, averaged_over=averaged_over(mix))
 
 
-def _law_with_band(
+def law_with_band(
     law: Spectrum, uncertainty: Uncertainty | None, temperature: Vector, frequency: Vector
 ) -> tuple[Complex, Complex, Complex]:
     """ln E* (n,) of a law and both ends of its band, NaN where that is not known."""
@@ -102,10 +102,10 @@ def master_curve(mix: Mixture, at: float | None = None, law: LawOfMix | None = N
     decades = float(np.log10(reduced.max() / reduced.min()))
     frequency = np.geomspace(reduced.min(), reduced.max(), round(IN_A_DECADE * decades) + 2)
     temperature = np.full(frequency.size, at)
-    curve = _table(temperature, frequency, mix_modulus(mix, temperature, frequency))
+    curve = table_of(temperature, frequency, mix_modulus(mix, temperature, frequency))
     if law is not None:
-        ends = _law_with_band(law.law, law.uncertainty, temperature, frequency)
-        beside = _table(temperature, frequency, ends)
+        ends = law_with_band(law.law, law.uncertainty, temperature, frequency)
+        beside = table_of(temperature, frequency, ends)
         curve = curve.join(beside.drop(columns=["temperature_C", "frequency_Hz"]).add_prefix("law_"))
     return curve.assign(averaged_over=averaged_over(mix))
 

@@ -14,7 +14,8 @@ import pandas as pd
 
 from asphalt_nscd.diagnosis.observed.observations import Vector
 from asphalt_nscd.diagnosis.observed.scatter import SCALE_FREEDOM, SPECIMEN_SCALE
-from asphalt_nscd.diagnosis.record.reported import EN_12697_26, IN_A_DECADE, NEAR
+from asphalt_nscd.diagnosis.record.reported import EN_12697_26, IN_A_DECADE, NEAR, law_with_band, table_of
+from asphalt_nscd.diagnosis.words.sentences import numbers
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_json, write_table
 from asphalt_nscd.files.words import counted
@@ -47,18 +48,8 @@ class StiffnessOnly:
 
     def modulus(self, temperature: Vector, frequency: Vector) -> pd.DataFrame:
         """|E*| of the mix [MPa] with 95 % intervals at temperatures [degC] and frequencies [Hz], (n,) each."""
-        omega = 2.0 * np.pi * frequency
-        modulus = np.abs(self.fit.law.complex_modulus(omega, temperature)) * 1e-6
-        spread = np.exp(self.uncertainty.half(self.fit.law, omega, temperature).real)
-        return pd.DataFrame(
-            {
-                "temperature_C": temperature,
-                "frequency_Hz": frequency,
-                "E_MPa": modulus,
-                "E_low_MPa": modulus / spread,
-                "E_high_MPa": modulus * spread,
-            }
-        )
+        ends = law_with_band(self.fit.law, self.uncertainty, temperature, frequency)
+        return table_of(temperature, frequency, ends).filter(regex="_C$|_Hz$|_MPa$")
 
     def master_curve(self) -> pd.DataFrame:
         """|E*| over the band of the tests, at the reference temperature."""
@@ -75,26 +66,41 @@ class StiffnessOnly:
         within = isotherm.min() - NEAR <= EN_12697_26[0] <= isotherm.max() + NEAR
         return {name: float(value) for name, value in at.items()} | {"within_the_tests": bool(within)}
 
-    def __str__(self) -> str:
-        tests, specimens = len(self.tests), self.tests["specimen"].nunique()
-        at = self.reported
-        isotherms = ", ".join(f"{t:g}" for t in sorted(self.tests["isotherm_C"].unique()))
+    @property
+    def rows(self) -> list[tuple[str, str]]:
+        """Label and sentence of each row of the answer."""
+        tests, specimens, at = len(self.tests), self.tests["specimen"].nunique(), self.reported
         differ = f"; whole specimens differ by {100.0 * self.between:.1f} %" if specimens > 1 else ""
         worst = self.tests.loc[self.tests["residual_percent"].abs().idxmax()]
-        return "\n".join(
-            [
-                f"Tests       {counted(tests, 'test')} of {counted(specimens, 'specimen')} at {isotherms} degC: |E*| "
-                "alone, no phase.",
-                "Not judged  Without a phase the tests cannot be held against causality, and no fault of the machine "
-                "is told from the mix. Export the phase too for a diagnosis.",
-                f"Mix         |E*|(15 degC, 10 Hz) = {at['E_MPa']:.0f} MPa, 95 % interval {at['E_low_MPa']:.0f} to "
+        return [
+            (
+                "Tests",
+                f"{counted(tests, 'test')} of {counted(specimens, 'specimen')} at "
+                f"{numbers(sorted(self.tests['isotherm_C'].unique()))} degC: |E*| alone, no phase.",
+            ),
+            (
+                "Not judged",
+                "Without a phase the tests cannot be held against causality, and no fault of the machine is told from "
+                "the mix. Export the phase too for a diagnosis.",
+            ),
+            (
+                "Mix",
+                f"|E*|(15 degC, 10 Hz) = {at['E_MPa']:.0f} MPa, 95 % interval {at['E_low_MPa']:.0f} to "
                 f"{at['E_high_MPa']:.0f} MPa.",
-                f"Scatter     One test lies {100.0 * self.within:.1f} % off the master curve (standard deviation)"
-                f"{differ}.",
-                f"Farthest    {worst['residual_percent']:+.1f} %: specimen {worst['specimen']}, "
-                f"{worst['temperature_C']:g} degC, {worst['frequency_Hz']:g} Hz.",
-            ]
-        )
+            ),
+            (
+                "Scatter",
+                f"One test lies {100.0 * self.within:.1f} % off the master curve (standard deviation){differ}.",
+            ),
+            (
+                "Farthest",
+                f"{worst['residual_percent']:+.1f} %: specimen {worst['specimen']}, {worst['temperature_C']:g} degC, "
+                f"{worst['frequency_Hz']:g} Hz.",
+            ),
+        ]
+
+    def __str__(self) -> str:
+        return "\n".join(f"{label:12}{said}" for label, said in self.rows)
 
     def write(self, folder: Path) -> list[str]:
         """Write stiffness.json, stiffness_residuals.csv and master_curve.csv into an existing folder; their names."""

@@ -7,7 +7,7 @@ from functools import cache, partial
 from textwrap import wrap
 from typing import Any
 
-from jinja2 import Environment, PackageLoader, StrictUndefined, Template
+from jinja2 import Template
 from tabulate import tabulate
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
@@ -15,14 +15,13 @@ from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS, NAMED
 from asphalt_nscd.diagnosis.next_tests.fixed_orders import HALF
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words import facts, sentences, tables
-from asphalt_nscd.files.words import joined, specimen_named, three_digits
+from asphalt_nscd.diagnosis.words.templates import environment, items
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
 Content = Mapping[str, Any]
 WIDTH, LABEL = 100, 16  # columns of a terminal, and those of them for labels
 MOST = 4  # sentences of a row; a reader finds the others in the reasons
-END = "¶"  # of an item
 MORE = "{} more: see the reasons."
 FIRST_SCREEN = {  # label of a row, and the macro of words.j2 that fills it
     "Tests": "tests",
@@ -63,20 +62,13 @@ ORIGINS = {
 
 @cache
 def _template() -> Template:
-    made = Environment(
-        loader=PackageLoader("asphalt_nscd.diagnosis", "words"),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        autoescape=False,  # noqa: S701  of text; the page escapes it
+    names: dict[str, Any] = (
+        vars(sentences) | vars(facts) | {"places": levels.places, "ONE_MIX": levels.ONE_MIX}
     )
-    made.globals |= vars(sentences) | vars(facts) | {"places": levels.places, "ONE_MIX": levels.ONE_MIX}
-    made.globals |= {"CATALOGUE": CATALOGUE, "LEAST_ISOTHERMS": LEAST_ISOTHERMS, "NAMED": NAMED, "HALF": HALF}
-    made.globals |= {"OFF_TARGET": OFF_TARGET, "UNKNOWN": UNKNOWN, "ORIGINS": ORIGINS}
-    made.globals |= {"TESTS_OF": TEST_TYPES | {UNKNOWN: "tests of a kind that was not said"}}
-    made.filters |= {name: value for name, value in vars(sentences).items() if callable(value)}
-    made.filters |= {"joined": joined, "named": specimen_named, "three_digits": three_digits}
-    return made.get_template("words.j2")
+    names |= {"CATALOGUE": CATALOGUE, "LEAST_ISOTHERMS": LEAST_ISOTHERMS, "NAMED": NAMED, "HALF": HALF}
+    names |= {"OFF_TARGET": OFF_TARGET, "UNKNOWN": UNKNOWN, "ORIGINS": ORIGINS}
+    names |= {"TESTS_OF": TEST_TYPES | {UNKNOWN: "tests of a kind that was not said"}}
+    return environment().get_template("words.j2", globals=names)
 
 
 class Words:
@@ -94,8 +86,7 @@ class Words:
 
     def __call__(self, part: str) -> list[str]:
         """The items of a macro, each without line breaks; empty where it has nothing to say."""
-        items = (" ".join(item.split()) for item in getattr(self._module, part)().split(END))
-        return [item for item in items if item]
+        return items(getattr(self._module, part)())
 
     def rows(self) -> list[tuple[str, list[str]]]:
         """Label and sentences of each row of the first screen in reading order, empty rows left out."""

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
+from typing import Any
 
 import numpy as np
+from jinja2 import Template
 from scipy.special import ndtr
 
 from asphalt_nscd.diagnosis.causes._cause import Place
@@ -17,11 +20,11 @@ from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
 from asphalt_nscd.diagnosis.next_tests.information import Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Sweep
 from asphalt_nscd.diagnosis.observed.observations import Observations
-from asphalt_nscd.diagnosis.words.sentences import article, capital
+from asphalt_nscd.diagnosis.words.sentences import article, numbers
+from asphalt_nscd.diagnosis.words.templates import environment, items
 from asphalt_nscd.files.words import joined
 
 REASONS = 3
-COPY = "One of two equal sweeps is a copy of the other: use the new tests in place of the old."
 NOTICEABLE = 15.0  # percent of cases
 CLEARER = 0.3  # standard errors
 CLEAR = 2.0 * float(np.log(1000.0))  # strength from which two causes are told apart: 1000 to 1
@@ -59,6 +62,11 @@ class Open:
         )
 
     @property
+    def copied(self) -> bool:
+        """Whether it is about a test that is a copy of another, or has one."""
+        return self.departure is not None and self.departure.copied
+
+    @property
     def place(self) -> Place:
         """Where the cause sits that it is about."""
         return None if self.candidate is None else self.candidate.place
@@ -87,48 +95,32 @@ class Context:
 def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[str]:
     """What the tests would do for the questions that they help most, in sentences."""
     helped = [(questions[k], *strengths) for k, strengths in order.helps.items()]
-    tested = [one for one, *_ in helped if one.covers(order)]
-    here = f"{order.sweep.temperature:g} degC"
-    repeated = [one for one in tested if one.kind == "repeat"]
-    again = sorted(one.about for one in repeated if not _copied(one))
-    found = [COPY] * any(map(_copied, repeated))
-    if again:
-        several = len(again) > 1
-        # The order itself has named them.
-        whole = len(again) == len(order.specimens) * len(order.sweep.frequencies)
-        old = f"test{'s' * several}" if whole else f"reading{'s' * several} of {joined(again)}"
-        look = "Look for a typing error in the record first: the" if context.typed else "The"
-        found.append(
-            f"{look} old {old} contradict{'s' * (not several)} the other frequencies at {here}."
-            + " Check gauges and mounting before." * context.checked
-            + " If the new test agrees with the other frequencies, use the new test."
-        )
-    found += [
-        f"{capital(one.about)}. If the new {one.other}, the machine, the temperature, the dimensions or the mounting "
-        "was at fault: use the new tests."
-        for one in tested
-        if one.kind == "level"
-    ]
-    found += [
-        f"What stays unexplained at {here} ({one.other}) should fall to about half if the mix is not linear. If the "
-        "machine is at fault, it should stay or grow."
-        for one in tested
-        if one.kind == "linear" and order.sweep.half_strain
-    ]
-    found += [_reason(*one) for one in helped if one[0].kind in ("kept", "metal", "apart")]
-    found += _reachable_causes([one for one in helped if one[0].kind == "reach"], context)
-    return [reason for reason in found if reason][:REASONS]
+    text = _template().render(
+        order=order,
+        context=context,
+        helped=helped,
+        tested=[one for one, *_ in helped if one.covers(order)],
+        reached=reached([one for one in helped if one[0].kind == "reach"]),
+    )
+    return items(text)[:REASONS]
+
+
+@cache
+def _template() -> Template:
+    made = environment()
+    made.filters |= {"in_places": in_places, "chances": chances}
+    return made.get_template("orders.j2", globals={"CLEARER": CLEARER, "CLEAR": CLEAR})
 
 
 def purpose(order: Order, questions: Sequence[Open]) -> str:
     """What an order is for, in a few words ("to ..."), without its first reason's numbers."""
     helped = [questions[k] for k in order.helps]
     repeated = [one for one in helped if one.kind == "repeat"]
-    if any(map(_copied, repeated)):
+    if any(one.copied for one in repeated):
         return "because one of two equal sweeps is a copy"
-    again = [one.departure.frequency for one in repeated if one.departure]
+    again = sorted({one.departure.frequency for one in repeated if one.departure and one.departure.frequency})
     for kind, words in (
-        ("repeat", f"because the old result at {_frequencies(again)} contradicts the other frequencies"),
+        ("repeat", f"because the old result at {numbers(again)} Hz contradicts the other frequencies"),
         ("level", "to see whether the odd result repeats itself"),
         ("linear", f"to see whether the mix is linear at {order.sweep.temperature:g} degC"),
         ("metal", "to confirm the {about}: metal must then show {other}, and 0 deg if there is none"),
@@ -146,21 +138,12 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
                 return f"to see an error of {one.other} in the temperature of any isotherm"
             alike = [other.place for other in helped if (other.kind, other.about) == (kind, one.about)]
             other = article(one.other) if kind == "apart" else one.other
-            return words.format(about=one.short or one.about, other=other, places=_places(alike))
+            return words.format(about=one.short or one.about, other=other, places=in_places(alike))
     return ""
 
 
-def _copied(one: Open) -> bool:
-    return one.departure is not None and one.departure.copied
-
-
-def _frequencies(tested: Iterable[float | None]) -> str:
-    """`10 and 25 Hz`."""
-    return f"{joined([f'{f:g}' for f in sorted({f for f in tested if f is not None})])} Hz"
-
-
-def _reachable_causes(helped: Sequence[tuple[Open, float, float]], context: Context) -> list[str]:
-    """A sentence for each cause that the tests bring within reach, its isotherms or specimens together."""
+def reached(helped: Sequence[tuple[Open, float, float]]) -> list[tuple[Any, ...]]:
+    """Causes that the tests bring within reach: what, where, and the chances [%] to find them now and then."""
     causes: dict[str, list[tuple[Place, float, float]]] = {}
     for one, *strengths in helped:
         before, after = (
@@ -169,47 +152,22 @@ def _reachable_causes(helped: Sequence[tuple[Open, float, float]], context: Cont
         )
         if after - before >= NOTICEABLE:
             causes.setdefault(one.about, []).append((one.place, before, after))
-    without = "with only the steps above" if context.later else "without it"
-    said = []
-    for about, found in causes.items():
-        places, now, then = (list(values) for values in zip(*found, strict=True))
-        on = "specimen" if isinstance(places[0], str) else "temperature"
-        depending = f", depending on the {on}" * (len(places) > 1)
-        said.append(
-            f"If there is {about}{_places(places)}, this test finds it with a chance of {_chances(then)}; {without} "
-            f"the chance is {_chances(now)}{depending}."
-        )
-    return said
+    return [(about, *map(list, zip(*found, strict=True))) for about, found in causes.items()]
 
 
-def _places(places: Sequence[Place]) -> str:
+def in_places(places: Sequence[Place]) -> str:
     """` at 4, 20 or 50 degC`, ` of specimen A or B`; nothing for a cause of all tests."""
     temperatures = sorted(place for place in places if isinstance(place, float))
     if temperatures:
-        return f" at {joined([f'{t:g}' for t in temperatures], 'or')} degC"
+        return f" at {numbers(temperatures, 'or')} degC"
     names = [place for place in places if isinstance(place, str)]
     return f" of {joined(names, 'or')}" if names else ""
 
 
-def _chances(values: Sequence[float]) -> str:
+def chances(values: Sequence[float]) -> str:
+    """Chances in whole percent, the least and the most."""
     least, most = f"{min(values):.0f}", f"{max(values):.0f}"
     return f"{least} %" if least == most else f"{least} to {most} %"
-
-
-def _reason(one: Open, before: float, after: float) -> str:
-    """What tests would do for one question; empty where that is little."""
-    if one.kind == "kept":
-        now, then = np.sqrt(before), np.sqrt(after)
-        found = f"The {one.about} should then be found without {one.other} too, by {then:.1f} standard errors"
-        return f"{found} (now {now:.1f})." * bool(then - now >= CLEARER)
-    if one.kind == "metal":
-        return f"Metal shows only what the machine adds. The {one.about} must show there as {one.other}."
-    if before >= CLEAR and not one.alike:
-        return ""
-    doubt = f"would look much the same. These tests speak for the {one.about}, but not beyond doubt."
-    looks = f"fits these tests as well as the {one.about}." if one.alike else doubt
-    clearer = "decide" if after >= CLEAR else "make it clearer"
-    return f"{capital(article(one.other))} {looks} This test should {clearer}."
 
 
 def act(one: Order, done: Observations) -> str:

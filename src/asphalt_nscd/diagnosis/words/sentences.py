@@ -109,19 +109,14 @@ def size_left(part: str, value: float, scatter: Mapping[str, float]) -> str:
     return f"{size:.1f} {unit}" if size >= 0.1 else f"{size:.1g} {unit}"
 
 
-def numbers(values: Sequence[float]) -> str:
+def numbers(values: Sequence[float], last: str = "and") -> str:
     """`4, 20 and 40`."""
-    return joined([f"{value:g}" for value in values])
+    return joined([f"{value:g}" for value in values], last)
 
 
 def typed(unit: str) -> str:
     """A unit as it is typed without a degree sign: deg or degC."""
     return {"\N{DEGREE SIGN}": "deg", "\N{DEGREE SIGN}C": "degC"}.get(unit, unit)
-
-
-def capital(words: str) -> str:
-    """The words with a capital first; units keep theirs."""
-    return f"{words[:1].upper()}{words[1:]}"
 
 
 def article(words: str) -> str:

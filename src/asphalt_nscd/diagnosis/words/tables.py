@@ -52,7 +52,15 @@ def tables(content: Content) -> list[Table]:
             [_tried(content, cause) for cause in content["measured_limits"]],
         ),
     ]
-    return [table for table in found if table.rows]
+    return [_filled(table) for table in found if table.rows]
+
+
+def _filled(table: Table) -> Table:
+    """The table without columns that are empty."""
+    kept = [k for k in range(len(table.head)) if any(row[k] for row in table.rows)]
+    return table._replace(
+        head=[table.head[k] for k in kept], rows=[[row[k] for k in kept] for row in table.rows]
+    )
 
 
 def _numbers(of: Mapping[str, Any] | None, digits: Mapping[str, int]) -> list[str]:

@@ -20,6 +20,7 @@ from openpyxl.worksheet.worksheet import Worksheet
 from asphalt_nscd.diagnosis.content import LEFT_OUT
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.exports.card import Card, Settings, make_card
+from asphalt_nscd.exports.formats import csv
 from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import atomic_path
@@ -175,16 +176,14 @@ def _master_curve(card: Card) -> pd.DataFrame:
 
 def _prony(card: Card) -> pd.DataFrame:
     """As the CSV has it, but the infinite time of the long-term modulus is left empty."""
-    series, units = card.series, card.settings.units
-    moduli, half = np.array([series.long_term, *series.moduli]), card.half_widths
-    known = {} if half is None else {f"half of its 95 % interval [{units.stress}]": half / units.pascals}
-    return pd.DataFrame(
-        {
-            "branch (0: long-term modulus)": range(moduli.size),
-            f"modulus [{units.stress}]": moduli / units.pascals,
-            **known,
-            "relaxation time [s]": [None, *series.times],
-            "share of the instantaneous modulus [1]": moduli / series.instantaneous,
+    unit = card.settings.units.stress
+    return csv.frame(card).rename(
+        columns={
+            "branch": "branch (0: long-term modulus)",
+            f"modulus_{unit}": f"modulus [{unit}]",
+            f"half_95_{unit}": f"half of its 95 % interval [{unit}]",
+            "relaxation_time_s": "relaxation time [s]",
+            "share_of_instantaneous": "share of the instantaneous modulus [1]",
         }
     )
 

@@ -88,30 +88,23 @@ class ContactProblem:
             connected_components(coupled, directed=False)[1].astype(np.int64),
         )
 
+    @property
+    def _arrays(self) -> tuple[np.ndarray, ...]:
+        """What the compiled kernels take first."""
+        return self.start, self.other, self.block, self.free_velocity, self.friction, self.length, self.part
+
     def velocity(self, r: np.ndarray) -> np.ndarray:
         """Velocity u = W r + q (3 c,) [m/s] of reactions `r` (3 c,) [N s]."""
         return self.matrix @ r + self.free_velocity
 
     def errors(self, r: np.ndarray) -> tuple[float, float]:
         """Errors of reactions `r` (3 c,) [N s], as Siconos states it and free of units (`natural_map`)."""
-        return natural_map(
-            self.start, self.other, self.block, self.free_velocity, self.friction, self.length, self.part, r
-        )
+        return natural_map(*self._arrays, r)  # type: ignore[call-arg]  # compiled
 
     def sweeps(self, tolerance: float, most_sweeps: int, first: np.ndarray) -> tuple[np.ndarray, int]:
         """Reactions (3 c,) [N s] by accelerated sweeps from `first` (3 c,), and the number of sweeps."""
-        return accelerated_sweeps(
-            self.start,
-            self.other,
-            self.block,
-            self.free_velocity,
-            self.friction,
-            self.length,
-            self.part,
-            tolerance,
-            most_sweeps,
-            first,
-        )
+        # compiled
+        return accelerated_sweeps(*self._arrays, tolerance, most_sweeps, first)  # type: ignore[call-arg]
 
     def factor(self, block: np.ndarray, pressed: np.ndarray | None = None) -> SuperLU | None:
         """Factors of the matrix with `block` (blocks, 3, 3) in the places of W, or None if it is singular.

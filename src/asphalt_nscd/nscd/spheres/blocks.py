@@ -11,6 +11,7 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
 from asphalt_nscd.nscd.lanes import WIDTH, gather, store
+from asphalt_nscd.nscd.spheres.laws import FORCE
 from asphalt_nscd.nscd.spheres.slabs import Slabs, Workspace, first_and_end, private_rows, workspace_for
 from asphalt_nscd.nscd.team import Team, barrier_wait, mark_started
 
@@ -77,6 +78,11 @@ def deal_lively(s, begin, count, workspace, last):
         store(copies, block, 5, pz)
         store(copies, block, 6, target)
         store(copies, block, 7, mass)
+        if copies.shape[1] > FORCE:
+            x, y, z = gather(workspace.noted_couples, blocks, block, 0)[:3]
+            store(copies, block, 8, x)
+            store(copies, block, 9, y)
+            store(copies, block, 10, z)
         for lane in range(WIDTH):
             k = blocks[block, 0, lane]
             blocks[block, 0, lane] = workspace.lively[k] if k != no_contact else NO_CONTACT
@@ -103,6 +109,8 @@ def give_back(start, count, workspace):
             if contact != NO_CONTACT:
                 for k in range(3, 6):
                     contacts[contact // WIDTH, k, contact % WIDTH] = copies[block, k, lane]
+                for k in range(FORCE, contacts.shape[1]):
+                    contacts[contact // WIDTH, k, contact % WIDTH] = copies[block, k, lane]
 
 
 def deal_blocks(
@@ -112,10 +120,10 @@ def deal_blocks(
 
     `begin` (slabs + 2,), `pair` (c,) and `bodies` (c, 2) are those of `slabs_of`.
     """
-    spheres, planes = workspace.wall + 1 - workspace.planes, workspace.planes
+    sizes = workspace.wall + 1, workspace.planes, workspace.contacts.shape[1]
     if workspace.block.size < pair.size:
         # a quarter more, so that lists which grow step by step do not ask for new arrays each time
-        workspace = workspace_for(pair.size + pair.size // 4, spheres + planes, planes)
+        workspace = workspace_for(pair.size + pair.size // 4, *sizes)
     rows, counts = np.empty_like(bodies), np.empty(begin.size - 1, np.int64)
     team.run(_number_slabs, begin, bodies, rows, counts, workspace)
     first_block = np.concatenate([[0], counts]).cumsum()
@@ -123,7 +131,7 @@ def deal_blocks(
     slabs = Slabs(first_block, np.empty((blocks, 3, WIDTH), np.int32), np.full(contacts, -1, np.int32))
     team.run(_fill_slabs, begin, pair, rows, slabs, workspace)
     if workspace.block.size < contacts:
-        workspace = workspace_for(contacts + contacts // 4, spheres + planes, planes)
+        workspace = workspace_for(contacts + contacts // 4, *sizes)
     return slabs, workspace
 
 

@@ -17,7 +17,6 @@ from __future__ import annotations
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
-from asphalt_nscd.nscd.contacts.coulomb import cut
 from asphalt_nscd.nscd.lanes import (
     WIDTH,
     broadcast,
@@ -32,6 +31,7 @@ from asphalt_nscd.nscd.lanes import (
     zeros,
 )
 from asphalt_nscd.nscd.spheres.blocks import deal_lively, first_lively, give_back
+from asphalt_nscd.nscd.spheres.laws import ContactLaw, new_couple, new_impulse
 from asphalt_nscd.nscd.spheres.slabs import part_of
 from asphalt_nscd.nscd.team import barrier_wait
 
@@ -55,33 +55,6 @@ def contacts_of(contacts, block):
 
 
 @compiled_for_teams
-def new_impulse(contact, i, j, friction, relaxation):
-    """(impulse x, y, z [N s], violation [m/s]) of contacts between bodies that move as i and j, eight at once.
-
-    Signorini on velocities: opening >= target, impulse >= 0, complementary; Coulomb with `friction`. The violation is
-    what the opening lacks of its target. A gap that is open may close, so its target is below zero. The local Delassus
-    operator is diagonal: normal 1/m_i + 1/m_j, tangential 7/2 of it. The change of an impulse is multiplied by
-    `relaxation` before the laws cut it; above one it over-relaxes. A cohesion must leave open gaps alone.
-    """
-    nx, ny, nz, px, py, pz, target, mass = contact
-    vx, vy, vz = j[0] - i[0], j[1] - i[1], j[2] - i[2]
-    surface_x, surface_y, surface_z = j[4] + i[4], j[5] + i[5], j[6] + i[6]
-    mass = relaxation * mass
-    opening = vx * nx + vy * ny + vz * nz
-    violation = target - opening
-    old_normal = px * nx + py * ny + pz * nz
-    new_normal = old_normal + violation * mass
-    new_normal = select_greater(new_normal, zeros(), new_normal, zeros())
-    tangential_mass = mass / broadcast(3.5)
-    along = old_normal - tangential_mass * opening
-    qx = px - tangential_mass * (vx - (surface_y * nz - surface_z * ny)) - along * nx
-    qy = py - tangential_mass * (vy - (surface_z * nx - surface_x * nz)) - along * ny
-    qz = pz - tangential_mass * (vz - (surface_x * ny - surface_y * nx)) - along * nz
-    qx, qy, qz = cut(qx, qy, qz, friction * new_normal)
-    return qx + new_normal * nx, qy + new_normal * ny, qz + new_normal * nz, violation
-
-
-@compiled_for_teams
 def push(motion, blocks, block, contact, i, j, x, y, z):
     """Give impulses [N s] at its contacts to the second bodies of a block, their opposites to the first."""
     nx, ny, nz = contact[:3]
@@ -95,8 +68,34 @@ def push(motion, blocks, block, contact, i, j, x, y, z):
 
 
 @compiled_for_teams
+def turn(motion, blocks, block, radii, i, j, x, y, z):
+    """Give couples [N m s] to the second bodies of a block, their opposites to the first."""
+    u = i[7] / radii[0]
+    i = i[0], i[1], i[2], i[3], i[4] - u * x, i[5] - u * y, i[6] - u * z, i[7]
+    u = select_greater(radii[1], zeros(), j[7] / radii[1], zeros())
+    j = j[0], j[1], j[2], j[3], j[4] + u * x, j[5] + u * y, j[6] + u * z, j[7]
+    scatter(motion, blocks, block, 1, i)
+    scatter(motion, blocks, block, 2, j)
+
+
+@compiled_for_teams
+def sweep_couples(blocks, contacts, block, law, relaxation, workspace):
+    """Let the contacts of a block, whose impulses are new, resist that their bodies turn against each other."""
+    i, j = gather(workspace.motion, blocks, block, 1), gather(workspace.motion, blocks, block, 2)
+    radii = gather(workspace.place, blocks, block, 1)[3], gather(workspace.place, blocks, block, 2)[3]
+    # lanes left over have no size
+    radii = select_greater(radii[0], zeros(), radii[0], broadcast(1.0)), radii[1]
+    couple = load(contacts, block, 8), load(contacts, block, 9), load(contacts, block, 10)
+    x, y, z = new_couple(law, contacts_of(contacts, block), couple, radii, i, j, relaxation)
+    turn(workspace.motion, blocks, block, radii, i, j, x - couple[0], y - couple[1], z - couple[2])
+    store(contacts, block, 8, x)
+    store(contacts, block, 9, y)
+    store(contacts, block, 10, z)
+
+
+@compiled_for_teams
 def sweep_blocks(
-    blocks, contacts, begin, count, noted_from, friction, relaxation, quiet, calm, workspace, rows, spare
+    blocks, contacts, begin, count, noted_from, law, relaxation, quiet, calm, workspace, rows, spare
 ):
     """One Gauss-Seidel sweep over blocks begin to begin + count; updates impulses and motion in place.
 
@@ -110,14 +109,14 @@ def sweep_blocks(
     for block in range(begin, begin + count):
         contact = contacts_of(contacts, block)
         i, j = gather(motion, blocks, block, 1), gather(motion, blocks, block, 2)
-        # walls have no inverse mass; the driven one may have some, and stands alone in the last slab
-        rough = select_greater(j[3], zeros(), broadcast(friction[0]), broadcast(friction[1]))
-        x, y, z, violation = new_impulse(contact, i, j, rough, broadcast(relaxation))
+        x, y, z, violation = new_impulse(law, contact, i, j, broadcast(relaxation))
         dx, dy, dz = x - contact[3], y - contact[4], z - contact[5]
         push(motion, blocks, block, contact, i, j, dx, dy, dz)
         store(contacts, block, 3, x)
         store(contacts, block, 4, y)
         store(contacts, block, 5, z)
+        if law.rolling > 0.0:
+            sweep_couples(blocks, contacts, block, law, broadcast(relaxation), workspace)
         moved = dx * dx + dy * dy + dz * dz
         lively = greater_bits(moved, broadcast(quiet)) | greater_bits(violation, broadcast(calm))
         if lively:
@@ -132,6 +131,9 @@ def sweep_blocks(
                     noted += 1
             nx, ny, nz = contact[:3]
             scatter(workspace.noted, rows, 0, 0, (nx, ny, nz, x, y, z, contact[6], contact[7]))
+            if law.rolling > 0.0:
+                couple = load(contacts, block, 8), load(contacts, block, 9), load(contacts, block, 10)
+                scatter(workspace.noted_couples, rows, 0, 0, (*couple, nx, nx, nx, nx, nx))
         fastest = select_greater(violation, fastest, violation, fastest)
         changed = changed + moved
         size = size + (x * x + y * y + z * z)
@@ -169,7 +171,7 @@ def push_blocks(contacts, motion, blocks, begin, count):
 
 
 @compiled_for_teams
-def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, ends, quiet, calm, last_block, rows):
+def sweep_slabs(part, slabs, workspace, law, relaxation, everyone, ends, quiet, calm, last_block, rows):
     """A sweep over every other slab of `part`, all contacts if `everyone`, else the copies of those noted.
 
     Notes contacts anew if `quiet` [N2 s2] or `calm` [m/s] is finite; where it `ends`, copies give their impulses back
@@ -179,12 +181,13 @@ def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, ends, qu
     for s in range(part[0], part[1], 2):
         start, count, of_lively = slabs.begin[s], slabs.begin[s + 1] - slabs.begin[s], WIDTH * slabs.begin[s]
         blocks, contacts, spare = slabs.blocks, workspace.contacts, workspace.noted.shape[0] - 2 - s
-        rough = friction if s < slabs.begin.shape[0] - 2 else (friction[1], friction[1])
+        wall = ContactLaw(law.wall_friction, law.wall_friction, law.rolling)
+        own = law if s < slabs.begin.shape[0] - 2 else wall
         if not everyone:
             blocks, contacts = workspace.lively_blocks, workspace.lively_contacts
             start, count = first_lively(of_lively), int(account[s, LIVELY_BLOCKS])
         changed, size, fastest, noted = sweep_blocks(
-            blocks, contacts, start, count, of_lively, rough, relaxation, quiet, calm, workspace, rows, spare
+            blocks, contacts, start, count, of_lively, own, relaxation, quiet, calm, workspace, rows, spare
         )
         if ends and not everyone:
             give_back(start, count, workspace)
@@ -198,7 +201,7 @@ def sweep_slabs(part, slabs, workspace, friction, relaxation, everyone, ends, qu
 
 @compiled_for_teams
 def sweep_until(
-    rank, members, barrier, slabs, workspace, friction, drive, tolerance, calm, enough_sweeps, most_sweeps
+    rank, members, barrier, slabs, workspace, law, drive, tolerance, calm, enough_sweeps, most_sweeps
 ):
     """Gauss-Seidel from the given impulses until their change is small; run by all members of a team.
 
@@ -241,7 +244,7 @@ def sweep_until(
         for k in range(idle, 3):
             part = parts[ORDER[k]] if everyone else lively_parts[ORDER[k]]
             sweep_slabs(
-                part, slabs, workspace, friction, relaxation, everyone, ends, quiet, limit, last_block, rows
+                part, slabs, workspace, law, relaxation, everyone, ends, quiet, limit, last_block, rows
             )
             barrier_wait(barrier, members)
         # no barrier: only the last slab, which is this member's, touches the wall

@@ -10,6 +10,8 @@ contact in the same way, U = v_j - v_i - (s_i + s_j) x n, and m (2/5) s' = -n x 
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled, compiled_for_teams
@@ -26,10 +28,28 @@ from asphalt_nscd.nscd.lanes import (
     zeros,
 )
 from asphalt_nscd.nscd.spheres.gauss_seidel import COUNT, DEEPEST, sweep_until
+from asphalt_nscd.nscd.spheres.laws import FORCE
 from asphalt_nscd.nscd.spheres.slabs import first_and_end, private_rows
 from asphalt_nscd.nscd.team import barrier_wait, mark_started, partition
 
 OUT_OF_REACH = 1e30  # m or m/s
+
+
+class StepNumerics(NamedTuple):
+    """How a step of `dt` [s] is made.
+
+    A gap below `margin` [m] is a contact. Overlaps beyond `allowed_overlap` [m] are undone no faster than by
+    `recovery_speed` [m/s]; zero: never. A step may add `penetration` [m] to an overlap; the rest is `sweep_until`'s.
+    """
+
+    dt: float
+    recovery_speed: float
+    allowed_overlap: float
+    margin: float
+    tolerance: float
+    penetration: float
+    enough_sweeps: int
+    most_sweeps: int
 
 
 @compiled_for_teams
@@ -199,6 +219,8 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
             store(contacts, block, k, select_greater(near, least, load(contacts, block, k), zero))
         store(contacts, block, 6, select_greater(near, least, target, broadcast(-OUT_OF_REACH)))
         store(contacts, block, 7, select_greater(near, least, mass, zero))
+        for k in range(FORCE, contacts.shape[1]):
+            store(contacts, block, k, zero)
         count = count + select_greater(near, least, one, zero)
         deepest = select_greater(zero - gap, deepest, zero - gap, deepest)
     workspace.account[s, COUNT] = total(count)
@@ -227,45 +249,22 @@ def rebound(s, slabs, workspace, velocity, restitution):
 
 
 @compiled_for_teams
-def step(
-    rank,
-    members,
-    barrier,
-    position,
-    radius,
-    velocity,
-    inverse_mass,
-    plane_point,
-    plane_normal,
-    gravity,
-    slabs,
-    workspace,
-    drive,
-    dt,
-    friction,
-    restitution,
-    recovery_speed,
-    allowed_overlap,
-    margin,
-    tolerance,
-    penetration,
-    enough_sweeps,
-    most_sweeps,
-):
+def step(rank, members, barrier, bodies, planes, slabs, workspace, gravity, drive, law, restitution, how):
     """Advance spheres by `dt` [s] in place; gives sweeps, their last relative change, largest overlap [m].
 
-    Run by all members of a team, each with its slabs and its share of the bodies. Overlaps beyond `allowed_overlap` [m]
-    are undone no faster than by `recovery_speed` [m/s]; zero: never. `velocity` (n + p, 6) has planes last, of
-    `inverse_mass` zero unless `drive` moves the last (guide_wall). A gap below `margin` [m] is a contact; a step may
-    add `penetration` [m] to an overlap.
+    Run by all members of a team, each with its slabs and its share of the `bodies`: position, radius, velocity, inverse
+    mass. `velocity` (n + p, 6) has planes last, of inverse mass zero unless `drive` moves the last (guide_wall).
     """
     mark_started(barrier)
-    n, bodies, last = position.shape[0], velocity.shape[0], slabs.begin.shape[0] - 2
+    position, radius, velocity, inverse_mass = bodies
+    plane_point, plane_normal = planes
+    dt = how.dt
+    n, count, last = position.shape[0], velocity.shape[0], slabs.begin.shape[0] - 2
     begin, end = partition(rank, members, n)
     pack_motion(velocity, inverse_mass, begin, end, workspace.motion)
     pack_place(position, radius, begin, end, workspace.place)
     if rank == 0:
-        pack_motion(velocity, inverse_mass, n, bodies, workspace.motion)
+        pack_motion(velocity, inverse_mass, n, count, workspace.motion)
     for i in range(begin, end):
         if inverse_mass[i] > 0.0:  # fixed spheres stay where they are
             for k in range(3):
@@ -276,27 +275,18 @@ def step(
         mine, others = first_and_end(rank, members, last, kind)
         for s in range(mine, others, 2):
             pack_planes(s, plane_point, plane_normal, workspace)
-            pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin)
+            pack_slab(s, slabs, workspace, dt, how.recovery_speed, how.allowed_overlap, how.margin)
             if restitution > 0.0:
                 rebound(s, slabs, workspace, velocity, restitution)
     # the sweeps begin with the contacts counted in all slabs
     barrier_wait(barrier, members)
+    calm, enough, most = how.penetration / dt, how.enough_sweeps, how.most_sweeps
     sweeps, change = sweep_until(
-        rank,
-        members,
-        barrier,
-        slabs,
-        workspace,
-        friction,
-        drive,
-        tolerance,
-        penetration / dt,
-        enough_sweeps,
-        most_sweeps,
+        rank, members, barrier, slabs, workspace, law, drive, how.tolerance, calm, enough, most
     )
     unpack_motion(workspace.motion, begin, end, velocity)
     if rank == 0:  # who guides the wall
-        unpack_motion(workspace.motion, n, bodies, velocity)
+        unpack_motion(workspace.motion, n, count, velocity)
     # by the velocity at the end of the step (theta = 1): the targets that just close a gap are set for it
     for i in range(begin, end):
         for k in range(3):

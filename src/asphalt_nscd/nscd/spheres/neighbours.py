@@ -16,6 +16,7 @@ from asphalt_nscd.nscd.lanes import WIDTH, broadcast, greater_bits, load
 from asphalt_nscd.nscd.team import Team, mark_started, partition
 
 CELL = 2.0  # width of cells, in smallest diameters and reaches: eight spheres are looked at together
+MOST_CELLS = 2**25  # 128 MB
 FAR = 1e100  # m
 PARTS = 8  # of the spheres for each member of a team, dealt in turns
 
@@ -49,9 +50,8 @@ def find_pairs_within(team, position, radius, plane_point, plane_normal, reach, 
     inner = np.searchsorted(work, work[-1] / parts * np.arange(1, parts))
     bounds = np.array([0, *inner, radius.size])
     count = np.empty(radius.size, np.int64)
-    found = team.run(
-        _partners, bounds, count, position, radius, plane_point, plane_normal, *reach, first_plane, *cells
-    )
+    planes = plane_point, plane_normal, reach.plane, first_plane
+    found = team.run(_partners, bounds, count, (position, radius), planes, reach.sphere, reach.extra, cells)
     start = np.concatenate([[0], count]).cumsum()
     pieces, taken = [], [0] * team.members
     for part, size in enumerate(np.diff(start[bounds]).tolist()):
@@ -62,27 +62,7 @@ def find_pairs_within(team, position, radius, plane_point, plane_normal, reach, 
 
 
 @compiled_for_teams
-def _partners(
-    rank,
-    members,
-    barrier,
-    bounds,
-    count,
-    position,
-    radius,
-    plane_point,
-    plane_normal,
-    reach,
-    extra,
-    plane_reach,
-    first_plane,
-    cell,
-    low,
-    shape,
-    first,
-    inside,
-    spheres,
-):
+def _partners(rank, members, barrier, bounds, count, spheres, planes, reach, extra, cells):
     """Count the bodies that each sphere is paired with; returns which, for the parts of a member one after another.
 
     Part k lies from its bound to the next, and is that of member k % members: the first spheres in a rain have landed
@@ -90,45 +70,20 @@ def _partners(
     """
     mark_started(barrier)
     furthest = extra.max()
-    other = np.empty(16 * (position.shape[0] // members) + 64, np.int64)
+    other = np.empty(16 * (spheres[1].shape[0] // members) + 64, np.int64)
     end = 0
     for part in range(rank, bounds.shape[0] - 1, members):
         for i in range(bounds[part], bounds[part + 1]):
             while True:
-                found = _candidates(
-                    i,
-                    position,
-                    radius,
-                    reach[i] + extra[i],
-                    furthest,
-                    cell,
-                    low,
-                    shape,
-                    first,
-                    inside,
-                    spheres,
-                    other,
-                    end,
-                )
-                needed = end + found + plane_point.shape[0]
+                found = _candidates(i, spheres, reach[i] + extra[i], furthest, cells, other, end)
+                needed = end + found + planes[0].shape[0]
                 if needed <= other.shape[0]:
                     break
                 # what found no room was counted all the same: grown once, it fits
                 other = np.concatenate((other, np.empty(max(needed, other.shape[0]), np.int64)))
             # ascending, so that reactions are carried from list to list in one pass
             _sort(other, end, end + found)
-            found += _planes_near(
-                i,
-                position,
-                radius,
-                plane_point,
-                plane_normal,
-                plane_reach,
-                extra[i],
-                first_plane,
-                other,
-                end + found,
-            )
+            found += _planes_near(i, spheres, planes, extra[i], other, end + found)
             count[i] = found
             end += found
     return other[:end]
@@ -142,15 +97,8 @@ def closing_speeds(team, position, radius, velocity, reach):
     impact may stop it, or hand on all of its own, within the step.
     """
     bound = np.empty(position.shape[0])
-    team.run(
-        _bound_speeds,
-        position,
-        radius,
-        velocity,
-        reach,
-        *_speeds_by_height(position, radius, velocity),
-        bound,
-    )
+    by_height = _speeds_by_height(position, radius, velocity)
+    team.run(_bound_speeds, position, radius, velocity, reach, *by_height, bound)
     return bound
 
 
@@ -243,11 +191,14 @@ def _fill_cells(position, radius, reach, extra):
     A row of cells along x begins with a block; -1 and infinitely far where lanes are left over.
     """
     cell = CELL * (2.0 * radius.min() + reach.min())
-    low = np.empty(3)
-    shape = np.empty(3, np.int64)
+    low, extent = np.empty(3), np.empty(3)
     for k in range(3):
         low[k] = position[:, k].min()
-        shape[k] = int((position[:, k].max() - low[k]) / cell) + 1
+        extent[k] = position[:, k].max() - low[k]
+    # a speck of dust among boulders would call for more cells than memory holds
+    while (extent[0] / cell + 1.0) * (extent[1] / cell + 1.0) * (extent[2] / cell + 1.0) > MOST_CELLS:
+        cell *= 2.0
+    shape = (extent / cell).astype(np.int64) + 1
     n, rows = position.shape[0], shape[1] * shape[2]
     index = np.empty(n, np.int32)
     first = np.zeros(shape[0] * rows + 1, np.int32)
@@ -287,8 +238,10 @@ def _cells_between(start, end, cell, cells):
 
 
 @compiled_for_teams
-def _candidates(i, position, radius, reach, furthest, cell, low, shape, first, members, spheres, out, offset):
+def _candidates(i, centres, reach, furthest, cells, out, offset):
     """Count the partners of sphere i; write them from `offset` on as far as `out` has room."""
+    position, radius = centres
+    cell, low, shape, first, members, spheres = cells
     x, y, z, size = position[i, 0], position[i, 1], position[i, 2], radius[i]
     # no partner is larger than the sphere itself: two of its radii reach every centre
     spread = 2.0 * size + reach + furthest
@@ -304,11 +257,8 @@ def _candidates(i, position, radius, reach, furthest, cell, low, shape, first, m
             begin, end = first[row + x_first], first[row + x_last + 1]
             # cells of a row lie side by side: one run of blocks, whose ends may hold spheres too far away
             for block in range(begin // WIDTH, -(-end // WIDTH)):
-                dx, dy, dz = (
-                    load(spheres, block, 0) - at_x,
-                    load(spheres, block, 1) - at_y,
-                    load(spheres, block, 2) - at_z,
-                )
+                dx, dy = load(spheres, block, 0) - at_x, load(spheres, block, 1) - at_y
+                dz = load(spheres, block, 2) - at_z
                 other = load(spheres, block, 3)
                 limit = own + other + near + load(spheres, block, 4)
                 inside = greater_bits(limit * limit, dx * dx + dy * dy + dz * dz)
@@ -335,9 +285,10 @@ def _sort(numbers, begin, end):
 
 
 @compiled_for_teams
-def _planes_near(i, position, radius, plane_point, plane_normal, reach, extra, first_plane, out, offset):
+def _planes_near(i, spheres, planes, extra, out, offset):
     """Count the planes near sphere i and write them from `offset` on."""
-    found = 0
+    (position, radius), found = spheres, 0
+    plane_point, plane_normal, reach, first_plane = planes
     for k in range(plane_point.shape[0]):
         height = 0.0
         for d in range(3):

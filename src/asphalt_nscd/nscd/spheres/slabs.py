@@ -17,6 +17,7 @@ import numpy as np
 
 from asphalt_nscd.nscd.compiled import compiled_for_teams
 from asphalt_nscd.nscd.lanes import WIDTH, aligned
+from asphalt_nscd.nscd.spheres.laws import FORCE, WITH_COUPLE
 from asphalt_nscd.nscd.team import Team, barrier_wait, mark_started, partition
 
 MOST_SLABS = 256
@@ -42,20 +43,21 @@ class Slabs(NamedTuple):
 class Workspace(NamedTuple):
     """Arrays that a step works in: contacts (c,), blocks (b,), bodies and their rows (r,), see `private_rows`.
 
-    All eight rows of `contacts` are taken. One more number for each contact needs an array in its order and, for
-    contacts that are swept as copies, a place in `noted` (`lively_contacts`, `blocks.deal_lively`,
-    `blocks.give_back`). What starts the next step is carried as impulses are (`granular.lay_in`,
-    `granular.take_out`, `neighbours.carry_reactions`).
+    `contacts` has three rows more where a law has a couple, which starts each step from zero. What starts the next step
+    is carried as impulses are (`granular.lay_in`, `granular.take_out`, `neighbours.carry_reactions`).
     """
 
     motion: np.ndarray  # (r, 8) velocity [m/s], 1/mass [1/kg], spin as surface velocity [m/s], 5/2 of 1/mass
     place: np.ndarray  # (r, 8) [m] of a sphere: position, radius, zeros; of a plane: a point, 0, normal, 1
-    contacts: np.ndarray  # (b, 8, 8) normal, impulse [N s], target [m/s], mass [kg] that one along it moves
+    contacts: (
+        np.ndarray
+    )  # (b, 8 or 11, 8) normal, impulse [N s], target [m/s], mass [kg] it moves; couple [N m s]
     lively: np.ndarray  # (c,) contacts that were noted
     noted: np.ndarray  # (c + slabs + 2, 8) what `contacts` has of each; a spare row for each slab; zeros
+    noted_couples: np.ndarray  # (c + slabs + 2, 8) the rest of it; one row where there is none
     bodies: np.ndarray  # (c, 2) theirs
     lively_blocks: np.ndarray  # (2 b, 3, 8) in which they stand; see `first_lively`
-    lively_contacts: np.ndarray  # (2 b, 8, 8) copies of them
+    lively_contacts: np.ndarray  # (2 b, 8 or 11, 8) copies of them
     block: np.ndarray  # (c,) while contacts are dealt: where each stands,
     lane: np.ndarray  # (c,)
     filled: np.ndarray  # (c,) lanes of each block that are taken,
@@ -65,19 +67,24 @@ class Workspace(NamedTuple):
     planes: int  # it and those before it
 
 
-def workspace_for(contacts: int, bodies: int, planes: int) -> Workspace:
-    """Workspace of zeros for a step; planes count among `bodies`."""
-    rows, blocks = bodies + (MOST_SLABS + 1) * (planes + 1), -(-contacts // WIDTH)
+def workspace_for(contacts: int, bodies: int, planes: int, numbers: int = FORCE) -> Workspace:
+    """Workspace of zeros for a step; planes count among `bodies`; `numbers` of a contact, FORCE or WITH_COUPLE."""
+    rows, blocks, noted = (
+        bodies + (MOST_SLABS + 1) * (planes + 1),
+        -(-contacts // WIDTH),
+        contacts + MOST_SLABS + 2,
+    )
     lively, block, lane, filled, following = np.empty((5, contacts), np.int32)
     return Workspace(
         motion=aligned((rows, WIDTH)),
         place=aligned((rows, WIDTH)),
-        contacts=aligned((blocks, 8, WIDTH)),
+        contacts=aligned((blocks, numbers, WIDTH)),
         lively=lively,
-        noted=aligned((contacts + MOST_SLABS + 2, 8)),
+        noted=aligned((noted, WIDTH)),
+        noted_couples=aligned((noted if numbers == WITH_COUPLE else 1, WIDTH)),
         bodies=np.empty((contacts, 2), np.int32),
         lively_blocks=np.empty((2 * blocks, 3, WIDTH), np.int32),
-        lively_contacts=aligned((2 * blocks, 8, WIDTH)),
+        lively_contacts=aligned((2 * blocks, numbers, WIDTH)),
         block=block,
         lane=lane,
         filled=filled,
@@ -125,8 +132,8 @@ def slabs_of(
     strip, layer = np.empty(n, np.int32), np.empty(pairs, np.int32)
     place = np.zeros((team.members, (slabs + 1) * layers), np.int64)
     begin = np.empty(slabs + 2, np.int64)
-    box = axis, low[axis], extent[axis], low[2] + extent[2], strips
-    team.run(_deal, shares, position, start, other, last_body, box, strip, layer, place, begin, pair, bodies)
+    box = axis, low[axis], extent[axis], low[2] + extent[2], strips, last_body
+    team.run(_deal, shares, position, start, other, box, strip, layer, place, begin, pair, bodies)
     return begin, pair, bodies
 
 
@@ -149,25 +156,11 @@ def _measure(rank, members, barrier, shares, position, start, other):
 
 @compiled_for_teams
 def _deal(
-    rank,
-    members,
-    barrier,
-    shares,
-    position,
-    start,
-    other,
-    last_body,
-    box,
-    strip,
-    layer,
-    place,
-    begin,
-    pair,
-    bodies,
+    rank, members, barrier, shares, position, start, other, box, strip, layer, place, begin, pair, bodies
 ):
     """Pairs into layers of slabs, in the order of the list in each. place (members, layers): zeros."""
     mark_started(barrier)
-    axis, low, extent, top, strips = box
+    axis, low, extent, top, strips, last_body = box
     n, slabs = position.shape[0], begin.shape[0] - 2
     layers = place.shape[1] // (slabs + 1)
     for i in range(shares[rank], shares[rank + 1]):

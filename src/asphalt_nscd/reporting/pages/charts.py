@@ -156,7 +156,7 @@ def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
         "specimens",
         "Specimens: Black diagram and master curve",
         "Tests of one material should lie on one curve. Hollow points: not simply used. Lines in the Black diagram: "
-        "modelled before (dashed) and with all causes.",
+        "with all causes, and dashed before: a Burgers law at each temperature, or the first simulation of a study.",
         plots,
     )
 
@@ -185,9 +185,7 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
         marks = [_marks(row) for row in worst.to_dict("records")]
         panels.marked(axes, worst.assign(marks=marks))
         axes.set(xlabel="frequency (Hz)", ylabel="temperature (°C)")
-        axes.set_title(
-            f"{specimen_named(str(name))}: phase less phase required (°)", loc="left", fontsize=9.0
-        )
+        axes.set_title(f"{specimen_named(str(name))}: phase less required (°)", loc="left", fontsize=9.0)
         plots.append(inline(figure, f"{specimen_named(str(name))}, {counted(len(worst), 'test')}"))
     caption = (
         "In degrees. The required phase is computed from |E*| alone, and no delay or offset is taken off. The list of "

@@ -10,6 +10,7 @@ import pandas as pd
 from markupsafe import Markup
 
 from asphalt_nscd.files.store import atomic_path
+from asphalt_nscd.files.words import joined
 from asphalt_nscd.reporting.pages.charts import Chart, curves
 from asphalt_nscd.reporting.pages.style import filled
 
@@ -32,7 +33,6 @@ def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame, machine:
     E_MPa and phase_deg with their bounds _low and _high; `machine` says what one machine does to all mixes, a sentence
     a line, if that was asked.
     """
-    first = table.iloc[0]
     at = f"{of_mixes['temperature_C'].iloc[0]:g} °C"
     each = {str(name): rows for name, rows in of_mixes.groupby("mix", sort=False)}
     chart = Chart(
@@ -41,8 +41,7 @@ def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame, machine:
     content = filled(
         "plain.html",
         title=f"{len(table)} mixes",
-        value=f"Stiffest at {first.temperature_C:g} °C and {first.frequency_Hz:g} Hz: {first.mix}, {first.E_MPa:.0f} "
-        f"MPa (95 % interval {first.E_low_MPa:.0f} to {first.E_high_MPa:.0f}).",
+        value=_stiffest(table),
         charts=[chart],
         notes=NOTES,
         caption="Mixes, the stiffest first",
@@ -52,6 +51,16 @@ def write_page(path: Path, table: pd.DataFrame, of_mixes: pd.DataFrame, machine:
     )
     with atomic_path(path) as temporary:
         temporary.write_text(content, encoding="utf-8")
+
+
+def _stiffest(table: pd.DataFrame) -> str:
+    """Which mix is the stiffest, or which are not told apart from it."""
+    first, rivals = table.iloc[0], list(table["mix"][table["rank_low"] == 1])
+    at = f"at {first.temperature_C:g} °C and {first.frequency_Hz:g} Hz"
+    if len(rivals) > 1:
+        return f"Stiffest {at}: one of {joined(rivals)}, which these tests do not tell apart."
+    interval = f"95 % interval {first.E_low_MPa:.0f} to {first.E_high_MPa:.0f}"
+    return f"Stiffest {at}: {first.mix}, {first.E_MPa:.0f} MPa ({interval})."
 
 
 def _row(row: Any) -> list[str]:

@@ -22,6 +22,16 @@ from asphalt_nscd.reporting.pages.charts import charts
 from asphalt_nscd.reporting.pages.style import filled
 from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_ladder
 
+MADE_OF = ("residuals.csv", "causality.csv", "diagnosis.json")
+TO_HAND_ON = (
+    "report.pdf",
+    "corrected.xlsx",
+    "corrected.csv",
+    "reported.csv",
+    "master_curve.csv",
+    "law.json",
+    "limits.csv",
+)
 TEMPLATE, PAGE = "diagnosis_page.html", "diagnosis.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
 HELD_OUT = {
@@ -40,11 +50,9 @@ TABLE4 = [f"mre_{q}_{k}_percent" for q in ("E", "phase") for k in ("published", 
 
 
 def write_page(folder: Path, title: str) -> Path:
-    """Write diagnosis.html from the files of a diagnosis; it links limits.csv and law.json where they are."""
-    names = ("residuals.csv", "causality.csv", "diagnosis.json")
-    residuals, causality, diagnosis = (folder / name for name in names)
-    others = (folder / name for name in ("limits.csv", "law.json"))
-    links = [path.name for path in (residuals, causality, *filter(Path.is_file, others), diagnosis)]
+    """Write diagnosis.html from the files of a diagnosis; it links those that are there."""
+    residuals, causality, diagnosis = (folder / name for name in MADE_OF)
+    links = [name for name in (*TO_HAND_ON, *MADE_OF) if (folder / name).is_file()]
     curve = list(filter(Path.is_file, [folder / "master_curve.csv"]))
     content = render(sections([diagnosis], [residuals], [causality], curve=curve), title, links)
     with atomic_path(folder / PAGE) as path:

@@ -13,10 +13,12 @@ import pandas as pd
 from fpdf import FPDF
 from fpdf.fonts import FontFace
 
+from asphalt_nscd.diagnosis.content import DOUBTFUL, HELD_BACK, LEFT_OUT
 from asphalt_nscd.diagnosis.words.answer import Words
+from asphalt_nscd.diagnosis.words.facts import by_isotherm
+from asphalt_nscd.diagnosis.words.sentences import numbers
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.files.store import atomic_path
-from asphalt_nscd.files.words import joined
 from asphalt_nscd.measurements.kinds import TEST_TYPES
 from asphalt_nscd.reporting.figures import fig_master, panels, style
 from asphalt_nscd.reporting.figures.numbers import celsius
@@ -30,7 +32,7 @@ FONT = "DejaVu"
 SIZE = 9.0  # points
 PALE = (238, 240, 243)
 # Rows of the answer that a client reads; the others tell the laboratory what to do next.
-FINDINGS = ("Data", "Fault", "Possible fault", "Effect", "Possible effect", "Scatter", "Unexplained")
+FINDINGS = ("Data", "Fault", "Possible fault", "Effect", "Possible effect", "Scatter", "Law", "Unexplained")
 DOUBTS = ("Check first",)  # what was left out is a table
 AT_COMMAND_LINE = ("--", ".csv")  # what no client has
 
@@ -86,7 +88,7 @@ class _Report(FPDF):
         look["headings_style"] = FontFace(emphasis="BOLD", fill_color=PALE)
         with self.table(col_widths=tuple(widths), **look | options) as table:
             for line in cells:
-                table.row(list(line))
+                table.row([typeset(cell) for cell in line])
 
     def picture(self, *figures: Any) -> None:
         """Figures side by side over the width of the page."""
@@ -109,14 +111,14 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf = _Report(heading.mix or title, by)
     pdf.add_page()
     pdf.heading("Complex modulus of an asphalt mix", 15.0)
-    pdf.rows(_about(content, title, heading), (1.0, 3.0), first_row_as_headings=False)
+    pdf.rows(_about(content, heading), (1.0, 3.0), first_row_as_headings=False)
     pdf.heading("Result")
     pdf.set_font(FONT, "B", 10.5)
     pdf.text_block(typeset(Words(content)("value")[0]))
     pdf.set_font(FONT, size=SIZE)
     pdf.text_block(
-        "In brackets: 95 % intervals. Points: tests as measured. Line and values: the mix; certain faults are taken "
-        "off, possible ones by their probability."
+        "In brackets: 95 % intervals. Points: tests as measured. Values: the mix; certain faults are taken off, "
+        "possible ones by their probability. Line and band: the law below, which has few parameters."
     )
     pdf.picture(*_pictures(folder, content))
     pdf.heading("|E*| in MPa and phase in ° over temperature and frequency")
@@ -124,7 +126,7 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf.heading("What was found")
     pdf.rows(_findings(content, FINDINGS), (1.0, 4.0), first_row_as_headings=False)
     pdf.heading("What was left out or is in doubt, and why")
-    _left_out(pdf, pd.read_csv(folder / "corrected.csv", dtype={"specimen": str}, keep_default_na=False))
+    _left_out(pdf, content)
     doubts = _findings(content, DOUBTS)
     if doubts:
         pdf.rows(doubts, (1.0, 4.0), first_row_as_headings=False)
@@ -134,17 +136,16 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     return folder / PDF
 
 
-def _about(content: Mapping[str, Any], title: str, heading: Heading) -> list[tuple[str, str]]:
-    """Names and values of what was tested, by whom and how; the campaign stands for a mix without a name."""
+def _about(content: Mapping[str, Any], heading: Heading) -> list[tuple[str, str]]:
+    """Names and values of what was tested, by whom and how; what is not stated is left out."""
     reading = content["reading"]
     kind = TEST_TYPES.get(reading["test_type"], "not stated")
     said = {name: getattr(heading, name) for name in ("project", "mix", "operator", "date", "standard")}
-    said["mix"] = said["mix"] or title
     temperatures = ", ".join(f"{at:g}" for at in reading["isotherms_C"])
     tested = {
         "kind of test": kind[:1].upper() + kind[1:],
         "specimens": ", ".join(reading["specimens"]),
-        "temperatures": typeset(f"{temperatures} degC"),
+        "temperatures": f"{temperatures} degC",
         "tests": str(content["tests"] + content["trust"]["not_used"]),
     }
     return [(name.capitalize(), text) for name, text in (said | tested).items() if text]
@@ -166,38 +167,26 @@ def _pictures(folder: Path, content: Mapping[str, Any]) -> list[Any]:
 
 
 def _grid(pdf: _Report, table: pd.DataFrame) -> None:
-    """Moduli with intervals at the conditions of AASHTO R 84; grey where no test was made near."""
+    """Moduli with intervals at the conditions of AASHTO R 84; a star where no test was made near."""
     table = table.iloc[1:]  # the first stands above
-    temperatures = table["temperature_C"].unique()
-    cells = {(row.temperature_C, row.frequency_Hz): row for row in table.itertuples()}
-    head = ["Hz", *(celsius(at) for at in temperatures)]
-    grey = FontFace(color=(150, 150, 150), size_pt=7.0)
-    with pdf.table(
-        col_widths=(0.6, *[1.4] * len(temperatures)),
-        text_align="CENTER",
-        line_height=3.6,
-        borders_layout="HORIZONTAL_LINES",
-        headings_style=FontFace(emphasis="BOLD", fill_color=PALE),
-    ) as made:
-        made.row(head)
-        pdf.set_font(FONT, size=7.0)
-        for frequency in table["frequency_Hz"].unique():
-            line = made.row([f"{frequency:g}"])
-            for at in temperatures:
-                row = cells[at, frequency]
-                line.cell(_interval(row), style=None if row.within_the_tests else grey)
+    table = table.assign(cell=[_interval(row) for row in table.itertuples()])
+    cells = table.pivot(index="frequency_Hz", columns="temperature_C", values="cell")
+    lines = [[f"{f:g}", *cells.loc[f]] for f in table["frequency_Hz"].unique()]
+    pdf.set_font(FONT, size=7.0)
+    look = {"text_align": "CENTER", "line_height": 3.6, "padding": 0.0}
+    pdf.rows([["Hz", *map(celsius, cells)], *lines], (0.6, *[1.4] * cells.shape[1]), **look)
     pdf.set_font(FONT, size=SIZE)
     if not table["within_the_tests"].all():
-        pdf.text_block("Grey: no test was made near it; by the law of the mix with its band.")
+        pdf.text_block("*: no test was made near it; by the law of the mix with its band.")
 
 
 def _interval(row: Any) -> str:
     if pd.isna(row.E_MPa):
         return "not known"
-    modulus = f"{row.E_MPa:.0f}\n{row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}"
-    return typeset(
-        f"{modulus}\n{row.phase_deg:.1f} deg ({row.phase_low_deg:.1f} to {row.phase_high_deg:.1f})"
+    modulus = (
+        f"{row.E_MPa:.0f}{' *' * (not row.within_the_tests)}\n{row.E_low_MPa:.0f} to {row.E_high_MPa:.0f}"
     )
+    return f"{modulus}\n{row.phase_deg:.1f} deg ({row.phase_low_deg:.1f} to {row.phase_high_deg:.1f})"
 
 
 def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[str, str]]:
@@ -207,21 +196,22 @@ def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[s
         for label, said in Words(content).rows()
         if label in wanted
     ]
-    return [(label, typeset(" ".join(said)).replace("law.json", "the law")) for label, said in kept if said]
+    return [(label, " ".join(said).replace("law.json", "the law")) for label, said in kept if said]
 
 
-def _left_out(pdf: _Report, table: pd.DataFrame) -> None:
-    """Tests that were not used or are doubtful, and why."""
-    told = table[table["status"] != "used"]
-    if told.empty:
-        pdf.text_block(f"No test was left out: all {len(table)} were used.")
-        return
-    groups = told.groupby(["specimen", "temperature_C", "status", "reasons"], sort=False)["frequency_Hz"]
+def _left_out(pdf: _Report, content: Mapping[str, Any]) -> None:
+    """Tests that are not simply used, and why."""
     lines = [
-        (specimen, celsius(at), joined([f"{f:g}" for f in hertz]), status, typeset(reasons))
-        for (specimen, at, status, reasons), hertz in groups
+        (specimen, celsius(at), numbers(hertz), status, "; ".join(reasons))
+        for status in (LEFT_OUT, HELD_BACK, DOUBTFUL)
+        for specimen, at, reasons, hertz in by_isotherm(
+            [one for one in content["suspect_tests"] if one["status"] == status]
+        )
     ]
-    pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
+    if lines:
+        pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
+    else:
+        pdf.text_block(f"No test was left out: all {content['tests']} were used.")
 
 
 def _law(pdf: _Report, content: Mapping[str, Any]) -> None:

@@ -14,15 +14,14 @@ from asphalt_nscd.reporting.pages.diagnosis_page import PAGE
 from asphalt_nscd.reporting.pages.style import filled
 
 
-def write_page(folder: Path, title: str, answer: str) -> Path:
-    """Write the page beside stiffness_residuals.csv and master_curve.csv; `answer` holds a line for each label."""
+def write_page(folder: Path, title: str, answer: list[tuple[str, str]]) -> Path:
+    """Write the page beside stiffness_residuals.csv and master_curve.csv; `answer` has labels and sentences."""
     tests = pd.read_csv(folder / "stiffness_residuals.csv", dtype={"specimen": str})
-    lines = (line.partition("  ") for line in answer.splitlines())
     content = filled(
         "plain.html",
         title=title,
         charts=[_chart(tests, pd.read_csv(folder / "master_curve.csv"))],
-        answer=[(name, text.strip()) for name, _, text in lines],
+        answer=answer,
     )
     with atomic_path(folder / PAGE) as path:
         path.write_text(content, encoding="utf-8")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from html import escape
 from importlib.resources import files
 from itertools import takewhile
 from pathlib import Path
@@ -13,9 +12,8 @@ import pandas as pd
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from asphalt_nscd.diagnosis.words.sentences import capital
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.words import counted, joined, three_digits
+from asphalt_nscd.files.words import capital, counted, joined, three_digits
 
 
 def _own(name: str) -> str:
@@ -23,8 +21,6 @@ def _own(name: str) -> str:
 
 
 STYLE, SCRIPT = _own("page.css"), _own("page.js")
-# A page of one table scrolls inside it, so that the head of the table stays in sight.
-_ALONE = "@media screen { .wide { max-height: 92vh; overflow: auto; } }"
 LONG = 40  # characters of a cell that must not be squeezed into a word a line
 
 
@@ -36,17 +32,25 @@ CELSIUS, DEGREES, MINUS = (
 )
 
 
-def typeset(text: str) -> str:
-    """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus."""
-    if isinstance(text, Markup):  # of our own, with signs of its own
-        return text
-    text = DEGREES.sub("°", CELSIUS.sub("°C", text).replace("+-", "±"))
+def typeset(cell: object) -> str:
+    """A sentence of the terminal as it is printed: 4 degC -> 4 °C, 7.1 deg -> 7.1°, +- -> ±, a true minus.
+
+    A number has six digits; what is none is empty.
+    """
+    if isinstance(cell, int | float):
+        return "" if pd.isna(cell) else f"{cell:d}" if isinstance(cell, int) else f"{cell:.6g}"
+    if isinstance(cell, Markup):  # of our own, with signs of its own
+        return cell
+    text = DEGREES.sub("°", CELSIUS.sub("°C", str(cell)).replace("+-", "±"))
     return MINUS.sub("\N{MINUS SIGN}", text)
 
 
-def worded(cell: str) -> Markup:
-    """The class of a cell that holds a sentence; nothing for a short one."""
-    return Markup(' class="words"') if len(cell) > LONG and not isinstance(cell, Markup) else Markup("")
+def worded(cell: object) -> Markup:
+    """The class of a cell that holds a number or a sentence; nothing for a short one."""
+    if isinstance(cell, int | float):
+        return Markup(' class="number"')
+    sentence = isinstance(cell, str) and len(cell) > LONG and not isinstance(cell, Markup)
+    return Markup(' class="words"' if sentence else "")
 
 
 def environment() -> Environment:
@@ -81,18 +85,8 @@ def page(table: str | Path, title: str) -> str:
         raise InputError(f"{table}: no such file; check the path.") from None
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
         raise InputError(f"{table}: not a CSV table ({error}); make it again.") from None
-    head = "".join(f'<th scope="col">{escape(str(name))}</th>' for name in frame)
-    rows = "\n".join(f"<tr>{''.join(map(_cell, row))}</tr>" for row in frame.itertuples(index=False))
-    said = "".join(f'<p class="note">{escape(note)}</p>' for note in _sentences(notes))
-    return (
-        f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><title>{escape(title)}</title>'
-        f'<meta name="viewport" content="width=device-width, initial-scale=1"><style>{STYLE}{_ALONE}</style>'
-        f"<script>{SCRIPT}</script></head>\n<body>{said}"
-        # What scrolls must be reached by the keyboard, and have a name that a screen reader can say.
-        f'<div class="wide" tabindex="0" role="region" aria-label="{escape(title)}"><table>'
-        f"<caption>{escape(title)}</caption>\n"
-        f"<thead><tr>{head}</tr></thead>\n<tbody>\n{rows}\n</tbody></table></div></body></html>\n"
-    )
+    rows = frame.itertuples(index=False)
+    return filled("table_page.html", title=title, notes=_sentences(notes), head=list(frame), rows=rows)
 
 
 def _sentences(notes: list[str]) -> list[str]:
@@ -104,10 +98,3 @@ def _sentences(notes: list[str]) -> list[str]:
         else:
             joined.append(note)
     return joined
-
-
-def _cell(value: object) -> str:
-    if isinstance(value, str):
-        return f"<td{worded(value)}>{escape(value)}</td>"
-    text = "" if pd.isna(value) else f"{value:d}" if isinstance(value, int) else f"{value:.6g}"
-    return f'<td class="number">{text}</td>'
