@@ -19,7 +19,7 @@ from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
 from studies.measured.contacts import HAVERSINE, followed
-from studies.measured.excess import PARTS, budget, excess
+from studies.measured.excess import BESIDE, PARTS, budget, excess
 from studies.measured.ladder import averages, errors, rungs
 from studies.measured.mechanisms import Mechanisms, excess_of
 from studies.measured.reading import PROGRAMME
@@ -99,10 +99,16 @@ def test_the_excess_of_a_mix_that_is_only_read_is_what_the_reading_predicts(read
 def test_verdict_of_an_isotherm(other, verdict):
     """Three mixes whose parts say all, all but the same 0.4 degrees, or all but 15."""
     rows = [
-        ("p", 20.0, mix, part + noise + other, part, 0.0, 0.0)
+        ("p", 20.0, mix, part + noise + other, part, 0.0, 0.0, 0.0)
         for mix, part, noise in zip("abc", (1, 2, 3), (-0.1, 0, 0.1))
     ]
-    names = ["population", "temperature_C", "mix", "isotherm_deg", *(f"{name}_deg" for name in PARTS)]
+    names = [
+        "population",
+        "temperature_C",
+        "mix",
+        "isotherm_deg",
+        *(f"{name}_deg" for name in (*PARTS, BESIDE)),
+    ]
     assert budget(pd.DataFrame(rows, columns=names))["verdict"].tolist() == [verdict]
 
 
