@@ -139,14 +139,14 @@ def test_figures_are_pictures_in_a_notebook(diagnosis, plot):
 
 def test_how_it_shows_itself(diagnosis):
     assert repr(diagnosis) == (
-        "Diagnosis(explained: channel_delay 0.000788 s (established); 71 tests used, 1 not used)"
+        "Diagnosis(explained: channel_delay 0.000787 s (established); 71 tests used, 1 not used)"
     )
     html = diagnosis._repr_html_()
     assert "<b>Data</b>" in html and "channel_delay" in html and "|E*|" in html and "<script" not in html
     told = str(diagnosis)
     assert (
         told.startswith("Tests ")
-        and "\nFault           Channel delay in all tests, 0.788 +- 0.025 ms." in told
+        and "\nFault           Channel delay in all tests, 0.787 +- 0.018 ms." in told
     )
     assert diagnosis.details.startswith(told)
     assert f"\nWHAT WAS READ\n{diagnosis.notes[0]}" in diagnosis.details

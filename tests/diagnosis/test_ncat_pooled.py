@@ -1,4 +1,4 @@
-"""What the nine NCAT campaigns of one machine share: a delay, since phases that a mix may make are no offset."""
+"""What the nine NCAT campaigns of one machine share: a delay of no one size; no offset, for a mix makes such phases."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ def test_campaigns_of_ncat_share_a_delay_and_no_offset():
     table = made.same_machine(an.Draws(1000)).table
     assert set(table["cause"]) == {"channel_delay"}
     shared = table.set_index("where").loc["all campaigns"]
-    assert shared["value"] == pytest.approx(0.155, abs=0.01)
-    assert shared["std_error"] == pytest.approx(0.030, abs=0.01)
+    assert shared["value"] == pytest.approx(0.200, abs=0.01)
+    assert shared["std_error"] == pytest.approx(0.026, abs=0.01)
     page = (ROOT / "docs/machine.md").read_text(encoding="utf-8")
-    assert f"a delay of {shared['value']:.2f} ± {shared['std_error']:.2f} ms" in page
+    assert f"A delay of {shared['value']:.2f} ms" in page and not shared["named"]

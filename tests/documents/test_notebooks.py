@@ -10,7 +10,7 @@ from nbclient import NotebookClient
 
 NOTEBOOKS = Path(__file__).parents[2] / "notebooks"
 SHOWN = {  # in some output
-    "diagnosis": ["channel_delay", "0.000788", "Mix-B", "2S2P1D", "71 tests used"],
+    "diagnosis": ["channel_delay", "0.000787", "Mix-B", "2S2P1D", "71 tests used"],
     "forecast": [
         "Forecast(HMA H0: 20 points",
         "the modulus of the aggregate, x 1.25",

@@ -107,11 +107,11 @@ for name, made in SCRIPTED.items():
             name
         input:
             **made.input,
-            code=studied(made.script.replace("/", ".")),
+            code=studied(".".join(Path(made.script).parts)),
         output:
             **made.output,
         log:
-            f"results/{made.script.split('/')[0]}/logs/{name}.log",
+            f"results/{Path(made.script).parts[0]}/logs/{name}.log",
         benchmark:
             f"<results>/benchmarks/{name}.tsv"
         conda:

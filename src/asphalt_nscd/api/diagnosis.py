@@ -452,7 +452,7 @@ def diagnose(
     --------
     >>> diagnosis = diagnose("data/tutorial/exports", draws=Draws(500))
     >>> diagnosis
-    Diagnosis(explained: channel_delay 0.000788 s (established); 71 tests used, 1 not used)
+    Diagnosis(explained: channel_delay 0.000787 s (established); 71 tests used, 1 not used)
     >>> diagnosis.ladder[["cause", "error_E_before_percent", "error_E_after_percent"]].round()
                      cause  error_E_before_percent  error_E_after_percent
     0  relaxation_spectrum                    16.0                    3.0

@@ -154,7 +154,7 @@ def forecast(recipe: str | Path | Mapping[str, Any]) -> Forecast:
     >>> known = {"binder": {"grade": "PG 64-22"}, "binder_percent_by_mass": 5.2, "air_voids_percent": 7.0}
     >>> mix = forecast({**known, "grading": grading, "temperatures_C": [21.1], "frequencies_Hz": [10.0]})
     >>> mix.table[["E_MPa", "phase_deg"]].round(-1).iloc[0].tolist()
-    [6880.0, 20.0]
+    [6740.0, 20.0]
     >>> forecast({"name": "a mix"})
     Traceback (most recent call last):
     asphalt_nscd.files.errors.InputError: recipe: key 'binder' is missing from the recipe; add it.

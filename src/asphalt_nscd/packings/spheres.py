@@ -32,7 +32,8 @@ class Spheres:
     notes: list[str] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        require_spheres(self.path, self.position, self.radius)
+        # in metres it is no matter how far: a packing is moved to the origin
+        require_spheres(self.path, self.position, self.radius, np.inf)
         if self.radius.size > MOST:
             raise InputError(f"{self.path}: {self.radius.size} spheres; give at most {MOST}.")
 

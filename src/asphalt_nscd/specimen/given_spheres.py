@@ -14,7 +14,9 @@ FURTHEST = 1e6  # m
 TOUCHING = 1e-6  # m, gap below which two spheres count as touching
 
 
-def require_spheres(name: object, position: np.ndarray, radius: np.ndarray) -> None:
+def require_spheres(
+    name: object, position: np.ndarray, radius: np.ndarray, furthest: float = FURTHEST
+) -> None:
     """InputError unless `position` is (n, 3), `radius` (n,), all finite and all radii above zero.
 
     Compiled code looks at no bounds: a radius below zero would have it write outside of its arrays.
@@ -37,7 +39,7 @@ def require_spheres(name: object, position: np.ndarray, radius: np.ndarray) -> N
         (~np.isfinite(np.column_stack([position, radius])).all(axis=1), "is not finite"),
         (radius <= 0.0, "has a radius of zero or less"),
         (
-            np.abs(np.column_stack([position, radius])).max(axis=1) > FURTHEST,
+            np.abs(np.column_stack([position, radius])).max(axis=1) > furthest,
             "is more than 1000 km away or wide",
         ),
     ):

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.reporting.pages.assemble import Entry, assemble
 from asphalt_nscd.reporting.pages.diagnosis_page import render, sections
+from asphalt_nscd.reporting.pages.first_page import first_page
 from asphalt_nscd.reporting.pages.style import SCRIPT, STYLE
 from asphalt_nscd.reporting.pages.style import page as page_of
 
@@ -44,7 +45,7 @@ def found(browser):
 
 
 @pytest.mark.parametrize("width", WIDTHS)
-def test_report_has_nothing_to_complain_of(found, browser, tmp_path, width):
+def test_report_has_nothing_to_complain_of(found, browser, results, tmp_path, width):
     for name, text in {"a.png": "figure", "t.html": "table", "diagnosis.html": "diagnosis"}.items():
         (tmp_path / name.replace("html", "rst").replace("png", "rst")).write_text(
             f"**{text}**\n\nWith |E*| and ``code``.\n"
@@ -56,18 +57,16 @@ def test_report_has_nothing_to_complain_of(found, browser, tmp_path, width):
             f"<html><body><table><caption>{name}</caption><tr>{row}</tr></table></body></html>"
         )
     (tmp_path / "workflow.html").touch()
-    sentence = ["A sentence about 120 moduli."]
-    page = {
-        "lead": [("What is wrong", sentence[0])],
-        "bars": [("|E*|", [("as in the paper", "11.1", 100.0), ("one law", "2.5", 22.5)])],
-        "measured": sentence, "simulated": sentence, "wrong": sentence, "orders": sentence,
-        "law": ["a law", "Established."],
-        "found": [("Data", ["Good."]), ("Simulation", ["Right."]), ("Unexplained", sentence)],
-        "causes": [("a cause", "Established.")],
-        "notes": sentence, "gained": [("error of |E*|, %", "2", "1")], "held_out": None,
-        "left_out": [("coldest and warmest", "1.9", "16")], "elsewhere": sentence,
-        "as_table4": "", "pictures": [b64encode(png()).decode()], "data": "What was measured",
-    }  # fmt: skip
+    (picture := tmp_path / "map.png").write_bytes(png())
+    (samples := tmp_path / "samples.csv").write_text("sample,spheres,E_over_law\ns1,90,1.1\ns2,110,1.2\n")
+    page = first_page(
+        results.measured(),
+        results.simulations(("s1", "s2"), ratios=lambda sample: 1.1),
+        [samples],
+        results.diagnosis()["diagnosis"],
+        [picture],
+        results.ladder(),
+    )
     entries = [
         Entry(f"{place} Part {place}", tmp_path / name) for place, name in enumerate(("a.png", "t.html"))
     ]
