@@ -256,3 +256,12 @@ def test_megapascals_under_another_unit_are_asked_for(unit, said):
     warm = campaign()
     warm.loc[0, "E_MPa"] = 3e5
     assert unit_in_question(warm, unit) is None  # one slip is no unit
+
+
+def test_each_specimen_in_another_unit_is_told():
+    table = campaign(5)
+    for name, factor in {"A": 1e-3, "B": 1e3}.items():
+        table.loc[table["specimen"] == name, "E_MPa"] *= factor
+    told = [said for said in slips(table) if "every condition" in said]
+    assert [said.split(" is ")[0][-1] for said in told] == ["A", "B"]
+    assert "in GPa" in told[0] and "in kPa" in told[1]

@@ -113,3 +113,20 @@ def test_impossible_geometry_is_refused(change, words):
     values = {"b": 0.025, "B": 0.056, "e": 0.025, "h": 0.25, "mass": 0.6, "mobile_mass": 0.235}
     with pytest.raises(InputError, match=words):
         Geometry(**(values | change))
+
+
+@pytest.mark.parametrize("foot", [1.0, 2.24])
+def test_elastic_line_is_that_of_the_second_moment_of_area(foot):
+    """w'' = M/EI with I = e w^3/12 of a width that grows to `foot` times that of the head, by quadrature."""
+    shape = replace(PAPER, B=foot * PAPER.b)
+
+    def curvature(x):
+        width = shape.B + (shape.b - shape.B) * x / shape.h
+        return (shape.h - x) / (shape.e * width**3 / 12.0)
+
+    def deflection(at):
+        return quad(lambda x: (at - x) * curvature(x), 0.0, at)[0]
+
+    x = np.linspace(0.0, shape.h, 2001)
+    expected = [deflection(at) / deflection(shape.h) for at in x[[500, 1000, 1500]]]
+    assert shape.line(x)[[500, 1000, 1500]] == pytest.approx(expected, rel=1e-5)

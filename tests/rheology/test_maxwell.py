@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology import maxwell_fitting
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import MaxwellSeries, series_of
@@ -112,3 +113,20 @@ def test_a_solid_has_a_long_term_modulus_of_the_share_asked_for():
     solid = MaxwellSeries(0.0, (3e9, 1e9), (1.0, 2.0)).solid(1e-3)
     assert solid.long_term / solid.instantaneous == pytest.approx(1e-3)
     assert MaxwellSeries(1e8, (1e9,), (1.0,)).solid(1e-3).long_term == 1e8
+
+
+def test_the_largest_allowed_number_of_branches_is_tried(monkeypatch):
+    """Where evenly spaced branches first stay within the errors, so many may be the most, and one less are too few."""
+    band, allowed = (1e-2, 1e3), Miss(5.0, 2.0)
+    omega = maxwell_fitting._grid(*band, maxwell_fitting.FITTED)
+
+    def follows(terms):
+        tries = (_spaced(omega, at_15(omega), terms, reach, allowed) for reach in REACH)
+        return any(miss(series, at_15, *band).is_within(allowed) for series in tries)
+
+    needed = next(terms for terms in range(1, 50) if follows(terms))
+    monkeypatch.setattr(maxwell_fitting, "MOST_TERMS", needed)
+    fit_series(at_15, *band, allowed)
+    monkeypatch.setattr(maxwell_fitting, "MOST_TERMS", needed - 1)
+    with pytest.raises(InputError, match=f"no Prony series of {needed - 1} terms"):
+        fit_series(at_15, *band, allowed)

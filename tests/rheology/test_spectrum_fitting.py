@@ -1,6 +1,7 @@
 """One law for all temperatures, and how well the points know it."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from asphalt_nscd.rheology.parabolic import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.priors import ASPHALT_CONCRETE, USUAL
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
 from asphalt_nscd.rheology.spectrum import parameters
-from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
+from asphalt_nscd.rheology.spectrum_fitting import Form, _Problem, fit_spectrum
 
 FREQUENCIES = 2 * np.pi * np.array([3.0, 6, 10, 25, 40])
 TEMPERATURES = [-10.0, 5, 20, 40, 60]
@@ -219,3 +220,10 @@ def test_weights_are_standard_deviations():
     assert parameters(left) == pytest.approx(parameters(without), rel=1e-3)
     with pytest.raises(InputError, match="standard deviation of a test is not positive"):
         fit_spectrum(OMEGA, TEMPERATURE, modulus, 15.0, weights=(0.01, 0.0))
+
+
+def test_of_several_optima_the_lowest_is_taken():
+    """Whatever the order in which the starts lead to them."""
+    costs = iter([3.0, 1.0, 2.0, 5.0, 4.0])
+    problem = SimpleNamespace(solve=lambda start: SimpleNamespace(cost=next(costs), start=start))
+    assert _Problem.best(problem, list(range(5))).start == 1
