@@ -10,8 +10,9 @@ import pytest
 from forecasting.conftest import CONTENT
 
 from asphalt_nscd.api.laws import Law
-from asphalt_nscd.forecasting.forecast import INPUTS, forecast
+from asphalt_nscd.forecasting.forecast import INPUTS, _changed, forecast
 from asphalt_nscd.forecasting.recipe import recipe_of
+from asphalt_nscd.forecasting.scheme import FILLER, USUAL
 from asphalt_nscd.forecasting.written import (
     answer,
     caution,
@@ -140,3 +141,10 @@ def test_volumes_and_what_a_grade_became_are_told(graded):
     told = " ".join(answer(forecast(graded)))
     assert "Binder: A = 10.980, VTS = -3.680." in told
     assert f"VMA {binder + 6:.1f} %, VFA {100 * binder / (binder + 6):.0f} %" in told
+
+
+def test_what_a_percent_of_filler_moves_is_of_one_percent():
+    recipe = recipe_of(CONTENT)
+    (more, _), before = _changed(recipe, USUAL)["filler"], recipe.grading.passing_at(FILLER)
+    assert more.grading.passing_at(FILLER) - before == pytest.approx(0.01)
+    assert INPUTS["filler"].endswith("+ 1 %") and more.binder_share == recipe.binder_share

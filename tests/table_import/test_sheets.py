@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import openpyxl
 import pytest
 from table_import.slips import HEADER, ROWS, as_is, plain, read, said
 
 from asphalt_nscd.table_import.campaign import read_campaign
+from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.table_import.rows_of_tests import _all_at
 
 INFO = [["Project", "X"], ["Operator", "me"]]
 MEAN = [HEADER[1:], *([*row[1:3], row[3] + 3, row[4]] for row in ROWS[:4])]
@@ -78,3 +82,11 @@ def test_a_hidden_sheet_is_not_read(tmp_path):
     campaign, _ = read_campaign([tmp_path / "t.xlsx"])
     assert len(campaign.table.lines) == 4
     assert said(campaign, "hidden sheet A")
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "alike"), [("T (°F)", ["68", "68.9"], True), ("T (°F)", ["20", "20"], False)]
+)
+def test_the_temperature_in_a_sheet_s_name_is_that_of_its_tests_in_their_unit(name, values, alike):
+    cells = Cells(Path("t.xlsx"), [name], [(n, [value]) for n, value in enumerate(values)])
+    assert _all_at(cells, "20") == alike
