@@ -189,6 +189,18 @@ def test_gains_are_errors_of_single_tests_and_of_averages_over_specimens(diagnos
     assert found == pytest.approx(average, rel=rel)
 
 
+def test_a_specimen_is_asked_at_angular_frequencies():
+    """One whose bonds carry 1 + omega times the law: the fit is turned by as much."""
+    omega, star = np.array([1.0, 10.0]), np.array([1e9, 2e9 + 1e8j])
+    joint = SimpleNamespace(
+        observed=SimpleNamespace(omega=omega, frequency=omega / (2 * np.pi)), apparent=lambda *_: (star,)
+    )
+    specimen = SimpleNamespace(apparent_modulus=lambda omega, law: (1.0 + omega) * law)
+    fitted = SimpleNamespace(law=None, modelled=np.array([20.0 + 0.1j, 21.0 + 0.2j]))
+    simulated = gain.simulated_by(joint, fitted, specimen)
+    assert simulated == pytest.approx(fitted.modelled + np.log(1.0 + omega))
+
+
 def test_an_isotherm_at_an_end_is_no_part_of_the_held_out_error(monkeypatch):
     temperature = np.repeat([0.0, 10.0, 20.0], 2)
     observed = SimpleNamespace(
