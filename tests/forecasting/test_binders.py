@@ -6,7 +6,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.forecasting.binders import GRADES, ViscosityShift, crossover_of, read_binder, shear_modulus
+from asphalt_nscd.forecasting.binders import (
+    GRADES,
+    ViscosityShift,
+    _setpoints,
+    crossover_of,
+    read_binder,
+    shear_modulus,
+)
 
 OMEGA = 2 * np.pi * np.array([0.1, 10.0])
 
@@ -103,3 +110,10 @@ def test_recycled_asphalt_stiffens_by_the_share_of_its_binder(content):
     new, mixed = recipe_of(content).binder_modulus(), recipe_of(content | {"rap": old}).binder_modulus()
     hard = recipe_of(content | {"binder": {"grade": "82-16"}}).binder_modulus()
     assert np.log(mixed / new) == pytest.approx(np.log(hard / new) * 0.2 * 5 / 5.4)
+
+
+def test_readings_about_one_temperature_are_one_that_was_set():
+    """A thermostat scatters by tenths of a kelvin; a ramp in steps of a kelvin has many temperatures."""
+    assert _setpoints(np.array([9.97, 10.0, 10.04, 10.3])) == 1
+    assert _setpoints(np.array([9.9, 10.1, 19.8, 20.2, 40.0])) == 3
+    assert _setpoints(np.arange(10.0, 21.0)) == 6

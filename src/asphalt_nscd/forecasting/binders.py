@@ -23,6 +23,10 @@ UNSTATED = 15.0  # degC, what an unstated reference temperature is called
 GLASSY, RHEOLOGICAL_INDEX = 1e9, 1.8  # Pa; Christensen & Anderson (1992), middle of paving grades
 SOFTENED = 1300.0  # Pa s: viscosity at the softening point (MEPDG)
 LARGEST_MISFIT = 1.0  # rms of ln G* of a law about its table: more is no binder
+SCATTER, LEAST_SETPOINTS = (
+    1.0,
+    3,
+)  # K of readings about a temperature that was set; temperatures that a shift needs
 POOR_MISFIT = 0.15  # more than that is told
 LEAST_ABOVE = 5.0  # K of a table above the temperature at which its WLF shift is singular
 LAW_KEYS = {  # of a recipe: our name and unit
@@ -241,6 +245,11 @@ def _measured(path: Path, read_table: TableReader, poisson: float) -> Binder:
     """2S2P1D law with a WLF shift of Young's modulus, E = 2 (1 + nu) G, fitted to the table of a rheometer."""
     temperature, omega, shear = read_rheometer(path, read_table)
     known = np.unique(temperature)
+    if (there := _setpoints(known)) < LEAST_SETPOINTS:
+        raise InputError(
+            f"{path}: the shift of a binder needs at least {LEAST_SETPOINTS} temperatures, and its tests have {there}; "
+            "add some, or give A and VTS."
+        )
     modulus, glassy = 2.0 * (1.0 + poisson) * shear, 2.0 * (1.0 + poisson) * GLASSY
     try:
         start = fit_spectrum(omega, temperature, modulus, float(known[known.size // 2]), Form()).law
@@ -254,6 +263,15 @@ def _measured(path: Path, read_table: TableReader, poisson: float) -> Binder:
         )
     caution = f"The law of the binder misses its table by {100 * miss:.0f} %." if miss > POOR_MISFIT else ""
     return Binder(law, True, True, caution, (float(known[0]), float(known[-1])))
+
+
+def _setpoints(temperature: np.ndarray) -> int:
+    """How many temperatures a rheometer was set to; readings (n,) [degC], rising, scatter about each."""
+    count, first = 0, -np.inf
+    for reading in temperature:
+        if reading > first + SCATTER:
+            count, first = count + 1, reading
+    return count
 
 
 def _flowing(

@@ -73,7 +73,10 @@ def rival_points(found: Forecast) -> pd.DataFrame:
     frame = points(found)[["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]]
     for name, rival in RIVALS.items():
         modulus = rival(found.recipe)
-        frame[f"{name}_E_MPa"] = 1e-6 * np.abs(modulus)
+        # No mix is stiffer than its stones: there a regression is far outside its data.
+        frame[f"{name}_E_MPa"] = np.where(
+            np.abs(modulus) < found.recipe.aggregate.modulus, 1e-6 * np.abs(modulus), np.nan
+        )
         # Witczak's regression is of |E*| alone; a phase of zero would be read as elastic.
         if np.iscomplexobj(modulus) and np.any(modulus.imag):
             frame[f"{name}_phase_deg"] = np.degrees(np.angle(modulus))
@@ -110,11 +113,16 @@ def answer(found: Forecast) -> list[str]:
     volumes = ", ".join(f"{name} {100.0 * share:.1f} %" for name, share in composition(recipe).items())
     moved = {words: _moved(found, name)["E_percent"] for name, words in INPUTS.items()}
     order = sorted(moved, key=lambda words: -abs(moved[words]))
+    witczak = (
+        f"{at.witczak_E_MPa:.0f} MPa"
+        if np.isfinite(at.witczak_E_MPa)
+        else "stiffer than stone, outside its data"
+    )
     return [
         f"|E*| = {at.E_MPa:.0f} MPa ({1e3 * at.E_MPa / PSI:.0f} ksi) and phase {at.phase_deg:.1f}° at "
         f"{at.temperature_C:g} °C ({1.8 * at.temperature_C + 32:g} °F) and {at.frequency_Hz:g} Hz; band "
         f"{at.E_low_MPa:.0f} to {at.E_high_MPa:.0f} MPa and {at.phase_low_deg:.1f} to {at.phase_high_deg:.1f}°. "
-        f"Hirsch: {at.hirsch_E_MPa:.0f} MPa, {at.hirsch_phase_deg:.1f}°; Witczak 1-40D: {at.witczak_E_MPa:.0f} MPa.",
+        f"Hirsch: {at.hirsch_E_MPa:.0f} MPa, {at.hirsch_phase_deg:.1f}°; Witczak 1-40D: {witczak}.",
         WORTH,
         f"Binder: {binder_words(recipe.binder)}. By volume: {volumes}; VMA {vma:.1f} %, VFA {vfa:.0f} %.",
         *filter(None, [caution(found)]),
