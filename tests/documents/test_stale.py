@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import runpy
 import shutil
 from pathlib import Path
@@ -54,3 +55,14 @@ def test_a_change_of_meaning_makes_a_table_stale_and_a_comment_does_not(tmp_path
     noted["publish_one"]["digest"] = ""
     write_json(output / RESTS_ON, noted)
     assert stale(output.parent) == {"publish_one": "its sources were never noted"}
+
+
+def test_no_published_file_names_a_folder_of_the_machine_that_made_it():
+    kept = [
+        path
+        for path in Path("results/published").rglob("*")
+        if path.suffix in {".csv", ".json", ".md", ".txt"}
+    ]
+    assert kept
+    own = re.compile(r"(?<![\w.:/<~])/(?:home|root|work|tmp|Users|mnt|opt|var|usr)/")
+    assert {str(path): found.group() for path in kept if (found := own.search(path.read_text()))} == {}

@@ -32,9 +32,16 @@ def answered(table: pd.DataFrame, bench: str) -> tuple[dict[str, Any], str]:
             content, answer = dict(found.content), str(found)
         except an.InputError as error:
             content, answer = {**FAILED, "verdict": "refused"}, str(error).replace(folder, "")
-        except Exception:
-            content, answer = {**FAILED, "verdict": "failed"}, traceback.format_exc()
+        except Exception as error:
+            content, answer = {**FAILED, "verdict": "failed"}, failure(error)
     return content | {"cpu_s": round(time.process_time() - began, 2)}, answer
+
+
+def failure(error: Exception) -> str:
+    """Where it rose and what it says, without a path of the machine."""
+    calls = traceback.extract_tb(error.__traceback__)
+    places = [f"{Path(call.filename).name}:{call.lineno} {call.name}" for call in calls]
+    return "\n".join([*places, f"{type(error).__name__}: {error}"])
 
 
 @dataclass(frozen=True)
