@@ -17,7 +17,6 @@ import pandas as pd
 
 from asphalt_nscd.files.store import read_json
 from asphalt_nscd.reporting.publish import RESTS_ON, stale
-from asphalt_nscd.workflow_support import sources
 
 ROOT = Path(__file__).resolve().parents[1]
 LEDGER = Path("results/published/stale.csv")
@@ -33,7 +32,6 @@ MORE = dict.fromkeys(["attack", "publish_machines", "publish_inside"], " config/
 
 def table() -> pd.DataFrame:
     """Name, why it is stale, and the command that publishes it."""
-    sources.STUDIES[:] = [ROOT / "studies"]
     rows = [
         (
             name,

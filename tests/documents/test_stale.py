@@ -6,6 +6,8 @@ import io
 import re
 import runpy
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pandas as pd
@@ -55,6 +57,15 @@ def test_a_change_of_meaning_makes_a_table_stale_and_a_comment_does_not(tmp_path
     noted["publish_one"]["digest"] = ""
     write_json(output / RESTS_ON, noted)
     assert stale(output.parent) == {"publish_one": "its sources were never noted"}
+
+
+def test_what_rests_on_a_study_is_noted_as_the_command_notes_it():
+    """The command that publishes knows no more than its folder."""
+    told = "from asphalt_nscd.reporting.publish import Sources; print(Sources(['studies.forecast.blind'], []).digest())"
+    said = subprocess.run(
+        [sys.executable, "-c", told], cwd=ROOT, capture_output=True, text=True, check=True
+    ).stdout
+    assert len(said.strip()) == 64
 
 
 def test_no_published_file_names_a_folder_of_the_machine_that_made_it():

@@ -20,7 +20,7 @@ from asphalt_nscd.files.store import atomic_path
 
 PACKAGE = Path(__file__).resolve().parents[1]
 TEMPLATES = "*.j2"
-STUDIES: list[Path] = []  # the folder of studies/, from where the workflow knows that it stands
+STUDIES = [Path("studies")]  # their folder; a workflow that is run from elsewhere knows where it stands
 
 
 def source_files(*modules: str, without: Sequence[str] = ()) -> list[Path]:
