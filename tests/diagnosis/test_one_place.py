@@ -9,7 +9,7 @@ from test_diagnose import EFFECTS, LAW, table
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE, EVERY
 from asphalt_nscd.diagnosis.causes._cause import Setting, Sweep
-from asphalt_nscd.diagnosis.content import Content
+from asphalt_nscd.diagnosis.content.whole import Content
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import diagnose

@@ -13,7 +13,7 @@ from jsonschema import Draft202012Validator
 from test_diagnose import table
 
 from asphalt_nscd.diagnosis import run
-from asphalt_nscd.diagnosis.content import schema
+from asphalt_nscd.diagnosis.content.whole import schema
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.record.reading import reading
 from asphalt_nscd.diagnosis.record.report import physical_limits

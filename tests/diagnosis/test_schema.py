@@ -10,7 +10,7 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from asphalt_nscd.diagnosis import run
-from asphalt_nscd.diagnosis.content import schema
+from asphalt_nscd.diagnosis.content.whole import schema
 from asphalt_nscd.diagnosis.record import report
 from asphalt_nscd.diagnosis.simulation import gain
 from asphalt_nscd.diagnosis.words.answer import summary

@@ -8,7 +8,7 @@ from typing import get_args, get_type_hints
 
 import yaml
 
-from asphalt_nscd.diagnosis.content import Reading
+from asphalt_nscd.diagnosis.content.reading import Reading
 from asphalt_nscd.measurements.geometry import USUAL
 from asphalt_nscd.measurements.kinds import BENDING, TEST_TYPES, UNKNOWN
 from asphalt_nscd.table_import.words import WORDS

@@ -97,7 +97,7 @@ class Diagnosis:
         Returns
         -------
         mapping
-            Its keys are described in diagnosis/content.py.
+            Its keys are described in diagnosis/content/.
         """
         return self.outcome.content
 

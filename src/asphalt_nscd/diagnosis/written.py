@@ -11,7 +11,7 @@ import pandas as pd
 from msgspec import ValidationError
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
-from asphalt_nscd.diagnosis.content import Content, checked
+from asphalt_nscd.diagnosis.content.whole import Content, checked
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE, WIDE_SPREAD
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError

@@ -6,17 +6,16 @@ import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_UP, Context, Decimal
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from numpy.typing import NDArray
 
 from asphalt_nscd import __version__
 from asphalt_nscd.exports.law import ExportedLaw
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.files.templates import items, template
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
@@ -146,43 +145,24 @@ class Card:
             least=LEAST_LONG_TERM,
         )
 
-    def text(self, template: str) -> str:
+    def text(self, name: str) -> str:
         """The card by a template of this folder, in which `comment` makes comments of the statements."""
         series = self.series
-        return (
-            _templates()
-            .get_template(template)
-            .render(
-                card=self,
-                series=series,
-                terms=list(zip(series.weights, series.times, strict=True)),
-                moduli=list(zip(series.moduli, series.times, strict=True)),
-                wlf=self.law.wlf(),
-                express=self.settings.units.express,
-                comment=lambda sign: comment(sign, self.statements()),
-                zero_celsius=ZERO_CELSIUS,
-            )
+        return template(f"exports/{name}", {"number": number}).render(
+            card=self,
+            series=series,
+            terms=list(zip(series.weights, series.times, strict=True)),
+            moduli=list(zip(series.moduli, series.times, strict=True)),
+            wlf=self.law.wlf(),
+            express=self.settings.units.express,
+            comment=lambda sign: comment(sign, self.statements()),
+            zero_celsius=ZERO_CELSIUS,
         )
 
 
-@cache
-def _templates() -> Environment:
-    made = Environment(
-        loader=PackageLoader("asphalt_nscd", "exports"),
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        keep_trailing_newline=True,
-        autoescape=False,  # noqa: S701  of text
-    )
-    made.filters["number"] = number
-    return made
-
-
-def statements(template: str, **content: Any) -> list[str]:
-    """The statements of a template, which a pilcrow ends, each without line breaks."""
-    text = _templates().get_template(template).render(version=__version__, **content)
-    return [" ".join(said.split()) for said in text.split("¶") if said.strip()]
+def statements(name: str, **content: Any) -> list[str]:
+    """The statements of a template, each without line breaks."""
+    return items(template(f"exports/{name}").render(version=__version__, **content))
 
 
 def comment(sign: str, said: Sequence[str]) -> str:
@@ -232,9 +212,9 @@ def _short(value: float) -> str:
     return f"{float(Context(prec=2, rounding=ROUND_UP).create_decimal(Decimal(value))):.2g}"
 
 
-def write_card(law: ExportedLaw, settings: Settings, path: Path, template: str, solid: bool = False) -> str:
+def write_card(law: ExportedLaw, settings: Settings, path: Path, name: str, solid: bool = False) -> str:
     """Write the card of a law by a template; a line on it. `solid`: the program wants a solid at infinite time."""
     card = make_card(law, settings)
     card = card.solid() if solid else card
-    path.write_text(card.text(template), encoding="utf-8")
+    path.write_text(card.text(name), encoding="utf-8")
     return card.told()

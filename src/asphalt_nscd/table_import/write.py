@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path, write_table
+from asphalt_nscd.files.templates import template
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry, read_shape
@@ -91,7 +92,7 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
     )
     step = float(f"{min(COARSEST_STEP, 1.0 / (STEPS_PER_CYCLE * max(frequencies))):.2g}")
     table, counts = folder / "measurements.csv", folder / "counts.csv"
-    text = _render(
+    text = template("table_import/study.yaml.j2").render(
         name=name,
         # A string of JSON is one of YAML: no file name can add a key.
         source=json.dumps(source, ensure_ascii=False),
@@ -255,15 +256,3 @@ def _flow(value: Any) -> str:
         .removesuffix("...\n")
         .strip()
     )
-
-
-def _render(**values: Any) -> str:
-    from jinja2 import Environment, PackageLoader, StrictUndefined
-
-    environment = Environment(
-        loader=PackageLoader("asphalt_nscd", "table_import"),
-        undefined=StrictUndefined,
-        keep_trailing_newline=True,
-        autoescape=False,  # YAML, no HTML
-    )
-    return environment.get_template("study.yaml.j2").render(**values)

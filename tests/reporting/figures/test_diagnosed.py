@@ -10,7 +10,7 @@ from matplotlib.container import ErrorbarContainer
 from matplotlib.patches import Rectangle
 from tiny_results import LAWS, modulus
 
-from asphalt_nscd.diagnosis.content import schema
+from asphalt_nscd.diagnosis.content.whole import schema
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_table
 from asphalt_nscd.reporting.figures import fig10_extended, fig_black, fig_limits, fig_master, fig_residual_map

@@ -24,7 +24,7 @@ from asphalt_nscd.diagnosis.written import CONFINED_TO, SCHEMA_VERSION, UNITS, n
 
 
 def diagnosis_content(diagnosis: Diagnosis, specimen: NumericalSpecimen) -> dict[str, Any]:
-    """Content of `diagnosis.json` (typed by `diagnosis.content`)."""
+    """Content of `diagnosis.json` (typed by `diagnosis.content.whole`)."""
     ladder, held = [], HeldOut(joint_alone(diagnosis))
     if diagnosis.relaxation_spectrum:
         ladder.append(law_rung(diagnosis, specimen, held))

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.content import LEFT_OUT
+from asphalt_nscd.diagnosis.content.doubts import LEFT_OUT
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
 from asphalt_nscd.diagnosis.record.law import LawOfMix

@@ -10,7 +10,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.content import DOUBTFUL, HELD_BACK, ITSELF, LEFT_OUT, USED
+from asphalt_nscd.diagnosis.content.doubts import DOUBTFUL, HELD_BACK, ITSELF, LEFT_OUT, USED
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.screening import levels, suspects

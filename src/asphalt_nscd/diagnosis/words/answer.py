@@ -15,7 +15,7 @@ from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS, NAMED
 from asphalt_nscd.diagnosis.next_tests.fixed_orders import HALF
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words import facts, sentences, tables
-from asphalt_nscd.diagnosis.words.templates import environment, items
+from asphalt_nscd.files.templates import items, template
 from asphalt_nscd.measurements.campaign import OFF_TARGET
 from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
@@ -68,7 +68,7 @@ def _template() -> Template:
     names |= {"CATALOGUE": CATALOGUE, "LEAST_ISOTHERMS": LEAST_ISOTHERMS, "NAMED": NAMED, "HALF": HALF}
     names |= {"OFF_TARGET": OFF_TARGET, "UNKNOWN": UNKNOWN, "ORIGINS": ORIGINS}
     names |= {"TESTS_OF": TEST_TYPES | {UNKNOWN: "tests of a kind that was not said"}}
-    return environment().get_template("words.j2", globals=names)
+    return template("diagnosis/words/words.j2", vars(sentences), names)
 
 
 class Words:

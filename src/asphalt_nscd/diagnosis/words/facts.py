@@ -7,7 +7,7 @@ from typing import Any
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import MATERIAL
-from asphalt_nscd.diagnosis.content import ITSELF, LEFT_OUT
+from asphalt_nscd.diagnosis.content.doubts import ITSELF, LEFT_OUT
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP
 from asphalt_nscd.diagnosis.observed import quality
 from asphalt_nscd.diagnosis.screening import levels

@@ -20,8 +20,9 @@ from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
 from asphalt_nscd.diagnosis.next_tests.information import Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Sweep
 from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.words import sentences
 from asphalt_nscd.diagnosis.words.sentences import article, numbers
-from asphalt_nscd.diagnosis.words.templates import environment, items
+from asphalt_nscd.files.templates import items, template
 from asphalt_nscd.files.words import joined
 
 REASONS = 3
@@ -107,9 +108,8 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
 
 @cache
 def _template() -> Template:
-    made = environment()
-    made.filters |= {"in_places": in_places, "chances": chances}
-    return made.get_template("orders.j2", globals={"CLEARER": CLEARER, "CLEAR": CLEAR})
+    filters = vars(sentences) | {"in_places": in_places, "chances": chances}
+    return template("diagnosis/words/orders.j2", filters, {"CLEARER": CLEARER, "CLEAR": CLEAR})
 
 
 def purpose(order: Order, questions: Sequence[Open]) -> str:

@@ -17,7 +17,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.properties import PageSetupProperties
 from openpyxl.worksheet.worksheet import Worksheet
 
-from asphalt_nscd.diagnosis.content import LEFT_OUT
+from asphalt_nscd.diagnosis.content.doubts import LEFT_OUT
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.exports.card import Card, Settings, make_card
 from asphalt_nscd.exports.formats import csv

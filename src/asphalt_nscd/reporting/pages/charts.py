@@ -14,7 +14,7 @@ import matplotlib
 import pandas as pd
 from matplotlib.figure import Figure
 
-from asphalt_nscd.diagnosis.content import LEFT_OUT
+from asphalt_nscd.diagnosis.content.doubts import LEFT_OUT
 from asphalt_nscd.diagnosis.criteria import NOTABLE
 from asphalt_nscd.diagnosis.written import (
     BEFORE_AFTER,

@@ -12,7 +12,7 @@ from asphalt_nscd.forecasting import written
 from asphalt_nscd.forecasting.forecast import Forecast
 from asphalt_nscd.reporting.figures import forecast_panels
 from asphalt_nscd.reporting.figures.save import figure_bytes
-from asphalt_nscd.reporting.pages.style import STYLE, environment
+from asphalt_nscd.reporting.pages.style import filled
 
 PAGE = "forecast.html"
 
@@ -24,18 +24,14 @@ def write_page(found: Forecast, folder: Path) -> Path:
         {words: size["E_percent"] for words, size in said[kind].items()}
         for kind in ("inputs", "of_the_model")
     )
-    content = (
-        environment()
-        .get_template("forecast_page.html")
-        .render(
-            title=f"Forecast of {found.recipe.name}",
-            style=STYLE,
-            answer=written.answer(found),
-            curves=_png(forecast_panels.curves(found, points, written.rival_points(found))),
-            parts=_png(forecast_panels.parts(found)),
-            inputs=_png(forecast_panels.inputs(recipe, model)),
-            links=written.names(found),
-        )
+    content = filled(
+        "forecast_page.html",
+        title=f"Forecast of {found.recipe.name}",
+        answer=written.answer(found),
+        curves=_png(forecast_panels.curves(found, points, written.rival_points(found))),
+        parts=_png(forecast_panels.parts(found)),
+        inputs=_png(forecast_panels.inputs(recipe, model)),
+        links=written.names(found),
     )
     with atomic_path(folder / PAGE) as path:
         path.write_text(content, encoding="utf-8")

@@ -13,7 +13,7 @@ import pandas as pd
 from fpdf import FPDF
 from fpdf.fonts import FontFace
 
-from asphalt_nscd.diagnosis.content import DOUBTFUL, HELD_BACK, LEFT_OUT
+from asphalt_nscd.diagnosis.content.doubts import DOUBTFUL, HELD_BACK, LEFT_OUT
 from asphalt_nscd.diagnosis.record.reported import R_84, TESTS
 from asphalt_nscd.diagnosis.words.answer import Words
 from asphalt_nscd.diagnosis.words.facts import by_isotherm

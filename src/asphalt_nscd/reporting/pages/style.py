@@ -9,11 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.words import capital, counted, joined, three_digits
+from asphalt_nscd.files.templates import template
 
 
 def _own(name: str) -> str:
@@ -53,23 +52,10 @@ def worded(cell: object) -> Markup:
     return Markup(' class="words"' if sentence else "")
 
 
-def environment() -> Environment:
-    """The templates of this folder."""
-    made = Environment(
-        loader=PackageLoader("asphalt_nscd.reporting", "pages"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    made.filters |= {"worded": worded, "typeset": typeset, "counted": counted, "joined": joined}
-    made.filters |= {"capital": capital, "three_digits": three_digits}
-    return made
-
-
-def filled(template: str, **content: Any) -> str:
+def filled(name: str, **content: Any) -> str:
     """HTML of a template of this folder, with the style and the script of all pages."""
-    return environment().get_template(template).render(style=STYLE, script=SCRIPT, **content)
+    made = template(f"reporting/pages/{name}", {"worded": worded, "typeset": typeset})
+    return made.render(style=STYLE, script=SCRIPT, **content)
 
 
 def page(table: str | Path, title: str) -> str:

@@ -1,0 +1,1 @@
+"""Content of diagnosis.json, typed, a file for each part of it; `whole` puts them together."""
