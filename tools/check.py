@@ -58,6 +58,7 @@ PUBLISHED = (
     "measured",
     "mutants",
     "paper",
+    "ramp",
     "rigs",
     "verification",
 )

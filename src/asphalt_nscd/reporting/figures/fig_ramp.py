@@ -27,7 +27,7 @@ def draw(ramp: list[Path]) -> Figure:
     """Draw (a) force and (b) broken bonds against displacement, (c) the work of the first, (d) where bonds broke."""
     runs = [load(path, RAMP).arrays for path in ramp]
     figure, (curve, bonds, work, place) = style.new_figure(
-        style.WIDE, 55.0, columns=4, width_ratios=(1.0, 1.0, 1.0, 0.6)
+        style.WIDE, 55.0, columns=4, width_ratios=(1.0, 1.0, 1.0, 0.5)
     )
     for arrays, colour, dash in zip(runs, (style.BLUE, style.ORANGE), ("-", "--"), strict=False):
         moved = 1e6 * arrays["displacement_m"]
@@ -49,7 +49,7 @@ def draw(ramp: list[Path]) -> Figure:
     place.set_aspect("equal")
     place.set_axis_off()
     for axes, letter, words in zip(
-        (curve, bonds, work, place), "abcd", ("force", "bonds", "work", "where they broke"), strict=True
+        (curve, bonds, work, place), "abcd", ("force", "bonds", "work", "breaks"), strict=True
     ):
         style.letter(axes, letter, words)
     return figure
