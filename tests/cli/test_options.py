@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from asphalt_nscd.bending.settings import Bonds
-from asphalt_nscd.cli._options import only, step
+from asphalt_nscd.cli._options import offered, step
 from asphalt_nscd.files.options import Ranged, option, options_of
 from asphalt_nscd.specimen.settings import Vibration
 
@@ -33,7 +33,7 @@ def sample(
     files: tuple[Path, ...],
     *,
     outer: Outer,
-    bonds: Bonds = only("friction"),
+    bonds: Bonds = offered("friction"),
     titles: tuple[str, ...] = option("Titles.", (), key="title"),
     numbers: Sequence[float] | None = option("Numbers.", None, above=0.0),
     page: bool = option("A page.", True),

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import minimize
+from scipy.stats import chi2
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.model import start
@@ -14,6 +15,7 @@ from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observed import scatter
 from asphalt_nscd.diagnosis.observed.noise import Noise
 from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.search.diagnose import misfit_p_value
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 
@@ -168,3 +170,14 @@ def test_noise_with_a_discrepancy_is_that_of_the_dense_covariance():
     white = noise.whiten(values)
     assert white @ white == pytest.approx(stacked @ np.linalg.solve(covariance, stacked), rel=1e-9)
     assert noise.log_determinant == pytest.approx(np.linalg.slogdet(covariance)[1], rel=1e-9)
+
+
+def test_a_stated_scatter_judges_the_misfit_by_chi_squared(fit):
+    """96 values, of which the law and the scales take up what the hat matrix says."""
+    joint, fitted = fit
+    hat = fitted.jacobian @ np.linalg.solve(fitted.precision, fitted.jacobian.T)
+    left = chi2(fitted.residual.size - np.trace(hat))
+    assert joint.noise.freedom == scatter.STATED
+    assert misfit_p_value(fitted, joint.noise) == pytest.approx(
+        left.sf(fitted.residual @ fitted.residual), rel=1e-9
+    )

@@ -101,6 +101,14 @@ def test_the_law_is_fitted_again_where_it_leaves_less_than_a_twentieth_of_an_eff
         assert sizes[one.key] == pytest.approx(factor * THRESHOLD / np.sqrt(information) * one.typical[0])
 
 
+def test_an_effect_at_its_linear_limit_is_as_strong_as_the_threshold(fit):  # noqa: F811
+    """A clamp of one specimen, which the law cannot follow: fitted without it, the misfit is the threshold squared."""
+    joint, fitted = fit
+    absent = ACTIVE[2].replace_values(np.zeros(1))
+    size = limits_of(joint, fitted, [absent])[0][absent.key]
+    assert limits._limit_ratio(joint, fitted, absent, size, THRESHOLD) == pytest.approx(1.0, rel=0.1)
+
+
 def test_causes_are_alike_if_three_limits_do_not_part_them():
     """Of two directions with correlation r, that of z leaves z^2 (1 - r^2) to the other."""
     one, other = (Candidate(CAUSES[name], None, (0.0,)) for name in ("phase_offset", "channel_delay"))

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 import yaml
 
-from asphalt_nscd.reporting.layouts import BLOCKS, shown
+from asphalt_nscd.reporting.published_tables import BLOCKS, shown
 
 ROOT = Path(__file__).parents[2]
 DOCS = [f"docs/{path.name}" for path in sorted((ROOT / "docs").glob("*.md"))]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecasting.forecast import forecast, with_filler
+from asphalt_nscd.forecasting.forecast import forecast, refilled
 from asphalt_nscd.forecasting.recipe import Grading, recipe_of
 from asphalt_nscd.forecasting.scheme import SIZES, Settings, binder_volume, modulus_of_mix, volumes
 
@@ -222,6 +222,6 @@ def test_what_is_moved(recipe):
         assert (sign * made.moved[name].real > 0.0).all(), name
     for name, sign in {"contacts": 1, "gap": -1, "pressure": -1}.items():
         assert (sign * made.moved[name].real > 0.0).all(), name
-    grading = with_filler(recipe.grading, 0.01)
+    grading = refilled(recipe.grading, 0.01)
     assert grading.passing_at(63e-6) == pytest.approx(recipe.grading.passing_at(63e-6) + 0.01)
     assert grading.passing_at(10e-3) == 1.0

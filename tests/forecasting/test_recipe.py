@@ -222,7 +222,7 @@ def test_a_laboratorys_export_is_read_in_its_own_units(content, tmp_path):
     assert read.binder.complex_modulus(omega, 15.0) == pytest.approx(
         law.complex_modulus(omega, 15.0), rel=0.02
     )
-    assert read.beyond(read.temperature).tolist() == [t == -10 for t in read.temperature]
+    assert read.outside(read.temperature).tolist() == [t == -10 for t in read.temperature]
     del content["temperatures_C"]
     assert recipe_of(content, tmp_path / "recipe.yaml", read_sweeps).temperature.min() == 0.0
 

@@ -4,8 +4,8 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.reporting.layouts import shown
 from asphalt_nscd.reporting.publish import CHECKSUMS, altered, fill_blocks, publish
+from asphalt_nscd.reporting.published_tables import shown
 
 
 def test_files_are_copied_with_their_checksums(tmp_path):

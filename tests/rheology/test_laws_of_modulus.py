@@ -6,7 +6,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
-from asphalt_nscd.rheology.laws_of_modulus import CAM, OfModulus, Sigmoid
+from asphalt_nscd.rheology.laws_of_modulus import CAM, LawOfModulus, Sigmoid
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.priors import prior_of
 from asphalt_nscd.rheology.shift import WLF
@@ -23,7 +23,7 @@ OMEGA, TEMPERATURE = (
 
 
 @dataclass(frozen=True)
-class OfAnother(OfModulus):
+class Another(LawOfModulus):
     """|E*| of a 2S2P1D law, whose own phase is known: it is causal."""
 
     title: ClassVar[str] = "other"
@@ -37,7 +37,7 @@ class OfAnother(OfModulus):
 
 
 def test_the_phase_is_the_one_of_a_causal_law():
-    other = OfAnother(1.0, 2.0, 1.0, SHIFT)
+    other = Another(1.0, 2.0, 1.0, SHIFT)
     omega = np.geomspace(1e-3, 1e3, 7)
     exact = other.law.complex_modulus(omega, 15.0)
     assert np.abs(np.log(other.complex_modulus(omega, 15.0) / exact)).max() < 1e-6

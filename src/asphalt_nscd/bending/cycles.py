@@ -135,7 +135,7 @@ def run_cycles(
     work = dashpots = began = 0.0
 
     def held(now: History) -> float:
-        """In motion, films and contacts [J]; what friction took counts as held."""
+        """Energy in motion, films and contacts [J]; what friction took counts as held."""
         stress = now.values["sigma"], now.values["memory"]
         moving = inertia(now.values["velocity"], now.values["velocity"])
         return 0.5 * (moving + law.stored(strain, stress, stress)) + stepper.grip.held(skeleton)

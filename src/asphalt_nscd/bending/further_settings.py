@@ -26,7 +26,7 @@ def _require_one(name: str, force: float | None, displacement: float | None) -> 
         raise InputError(f"{name}: nothing moves; give a force or a displacement other than zero.")
 
 
-class _InEqualSteps(Ranged):
+class _EqualSteps(Ranged):
     """What a hold and a ramp share."""
 
     duration_s: float
@@ -44,7 +44,7 @@ class _InEqualSteps(Ranged):
 
 
 @dataclass(frozen=True)
-class Hold(_InEqualSteps):
+class Hold(_EqualSteps):
     """What is held, for how long, in how many equal steps.
 
     Parameters
@@ -80,7 +80,7 @@ class Hold(_InEqualSteps):
 
 
 @dataclass(frozen=True)
-class Ramp(_InEqualSteps):
+class Ramp(_EqualSteps):
     """How a specimen is pulled or pushed at constant speed until it fails, and on.
 
     Parameters

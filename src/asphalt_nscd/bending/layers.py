@@ -25,7 +25,7 @@ class LayerHeights:
 
 @dataclass(frozen=True)
 class Layers(LayerHeights):
-    """With what averages over them."""
+    """Layers with the matrix that averages the velocities of their spheres."""
 
     mean: sparse.csr_matrix  # (l, d): velocities of all bodies to mean velocities along the drive
 

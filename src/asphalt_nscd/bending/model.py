@@ -61,7 +61,7 @@ class Model:
 
     @property
     def reduced_form(self) -> tuple[ReducedModel, StandBy | None]:
-        """Without broken bonds; and directions for breaks."""
+        """The reduced model without broken bonds; and directions for breaks."""
         if self.stand_by is None:
             return ReducedModel(self.system, self.basis), None
         reduced = self.stand_by.model(self.system, self.basis, [])
@@ -94,12 +94,12 @@ class Model:
 
     @cached_property
     def static_factor(self) -> SuperLU | Multigrid:
-        """For steady oscillation, whatever its frequency."""
+        """Factors of the static stiffness, which steady oscillations of any frequency start from."""
         return static_factor(self.system, self.system.weight)
 
     @cached_property
     def layers(self) -> Layers:
-        """Over which velocities are averaged."""
+        """Layers of the specimen, over which velocities are averaged."""
         return Layers.of(self.sphere_height, self.geometry, self.system.mass.size)
 
 

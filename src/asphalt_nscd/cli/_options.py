@@ -25,7 +25,7 @@ File = click.Path(path_type=Path)
 def step(function: Callable[..., None] | None = None, /, **settings: Any) -> Any:
     """The command of a function; `settings` are those of click.
 
-    A parameter that is a dataclass takes the options of its fields, or those that `only` names. An annotation
+    A parameter that is a dataclass takes the options of its fields, or those that `offered` names. An annotation
     `tuple[Path, ...]` takes several, `Sequence[float]` numbers joined by commas.
     """
     if function is None:
@@ -50,8 +50,8 @@ def step(function: Callable[..., None] | None = None, /, **settings: Any) -> Any
     return click.command(params=params, **settings)(run)
 
 
-def only(*fields: str) -> Any:
-    """Of a parameter that is a dataclass: the fields that the command offers."""
+def offered(*fields: str) -> Any:
+    """The fields of a parameter's dataclass that the command offers."""
     return fields
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from asphalt_nscd.cli._options import MEASURED_IN, only, option, step
+from asphalt_nscd.cli._options import MEASURED_IN, offered, option, step
 from asphalt_nscd.cli._progress import bars
 from asphalt_nscd.diagnosis.settings import Draws, Known
 
@@ -16,8 +16,8 @@ def command(
     output: Path = option("Folder for comparison.html and the rest."),
     measured_in: str | None = MEASURED_IN,
     same_machine: bool = option("One machine tested all: say what it does to all of them, too.", False),
-    known: Known = only("law"),
-    draws: Draws = only("number"),
+    known: Known = offered("law"),
+    draws: Draws = offered("number"),
 ) -> None:
     """Diagnose several mixes and rank them: one workbook, one page, and a folder for each.
 

@@ -6,7 +6,7 @@ import click
 
 from asphalt_nscd.bending.further_settings import Fall
 from asphalt_nscd.bending.settings import Bonds
-from asphalt_nscd.cli._options import OUTPUT, only, option, step
+from asphalt_nscd.cli._options import OUTPUT, offered, option, step
 
 
 @step
@@ -15,7 +15,7 @@ def command(
     *,
     law: Path = option("Law of the bonds, JSON."),
     how: Fall,
-    bonds: Bonds = only("yield_Pa", "friction"),
+    bonds: Bonds = offered("yield_Pa", "friction"),
     output: Path = OUTPUT,
 ) -> None:
     """Let a specimen, whole or sawn in two, fall on a floor; `export --format vtk` films it.

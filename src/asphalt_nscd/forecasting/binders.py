@@ -63,7 +63,7 @@ class Shift(Protocol):
 
     @property
     def reference_temperature(self) -> float:
-        """At which the factor is one [degC]."""
+        """Temperature [degC] at which the factor is one."""
 
     def factor(self, temperature: np.ndarray) -> np.ndarray:
         """Reduced frequency over frequency at temperatures [degC]."""
@@ -74,7 +74,7 @@ class BinderLaw(Protocol):
 
     @property
     def shift(self) -> Shift:
-        """Of its frequencies."""
+        """Shift of its frequencies with temperature."""
 
     def complex_modulus(self, omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
         """E* [Pa] at angular frequencies [rad/s] and temperatures [degC], broadcast together."""
@@ -108,7 +108,7 @@ class ViscosityShift:
         return np.array([crossover_of(self.viscosity(t)) for t in at])[place].reshape(np.shape(temperature))
 
     def viscosity(self, temperature: float) -> float:
-        """In Pa s, at a temperature [degC]."""
+        """Viscosity [Pa s] at a temperature [degC]."""
         rankine = 1.8 * (temperature + ZERO_CELSIUS)
         return float(1e-3 * 10.0**10.0 ** (self.a + self.vts * np.log10(rankine)))
 
@@ -163,11 +163,11 @@ def crossover_of(viscosity: float, index: float = RHEOLOGICAL_INDEX) -> float:
     So the MEPDG (2004) makes the viscosity of a grade from its tests by a rheometer.
     """
 
-    def off(log: float) -> float:
+    def misfit(log: float) -> float:
         at = shear_modulus(np.array(10.0), 10.0**log, index)
         return float(np.log(np.abs(at) / 10.0 * np.sin(np.angle(at)) ** -4.8628 / viscosity))
 
-    return float(10.0 ** brentq(off, -20.0, 20.0))
+    return float(10.0 ** brentq(misfit, -20.0, 20.0))
 
 
 def read_binder(content: Mapping[str, Any], path: str | Path, read_table: TableReader = read_csv) -> Binder:
@@ -175,11 +175,11 @@ def read_binder(content: Mapping[str, Any], path: str | Path, read_table: TableR
     if "table" in content:
         return _measured(Path(path).parent / content["table"], read_table, content.get("poisson", 0.5))
     if "grade" in content:
-        return _of_grade(content["grade"], path)
+        return _graded(content["grade"], path)
     if "A" in content:
         return _viscous(content["A"], content["VTS"])
     if "penetration_dmm" in content:
-        return _viscous(*_of_penetration(content, path))
+        return _viscous(*_viscosity_line(content, path))
     values = {name: scale * content[key] for key, (name, scale) in LAW_KEYS.items()}
     refusal = TwoS2P1D.refusal(values)
     if refusal:
@@ -192,7 +192,7 @@ def _viscous(a: float, vts: float) -> Binder:
     return Binder(ViscosityLaw(ViscosityShift(a, vts)), shifted=True)
 
 
-def _of_grade(grade: str, path: str | Path) -> Binder:
+def _graded(grade: str, path: str | Path) -> Binder:
     """A binder of the usual A and VTS of a performance grade, as "PG 64-22"; that of AASHTO M 332 has a letter more."""
     given = re.fullmatch(r"(?:PG)?\s*(\d+)\s*([SHVE]?)\s*-\s*(\d+)", grade.strip().upper())
     high, traffic, low = given.groups() if given else ("0", "", "0")
@@ -213,7 +213,7 @@ def _of_grade(grade: str, path: str | Path) -> Binder:
     return replace(_viscous(*usual), caution=caution if traffic in tuple("HVE") else "")
 
 
-def _of_penetration(content: Mapping[str, float], path: str | Path) -> tuple[float, float]:
+def _viscosity_line(content: Mapping[str, float], path: str | Path) -> tuple[float, float]:
     """A and VTS from penetration at 25 degC and softening point, by the MEPDG's viscosities at both."""
     log = float(np.log10(content["penetration_dmm"]))
     viscosity = 0.1 * 10.0 ** (10.5012 - 2.2601 * log + 0.00389 * log**2)  # Pa s; the MEPDG has poises
@@ -290,11 +290,11 @@ def _flowing(
         shift = WLF(float(c1), singular + float(c2), reference)
         return TwoS2P1D(0.0, glassy, h * float(expit(x[6])), h, float(delta), float(tau), float(beta), shift)
 
-    def off(x: np.ndarray) -> np.ndarray:
+    def misfit(x: np.ndarray) -> np.ndarray:
         away = np.log(law_of(x).complex_modulus(omega, temperature) / modulus)
         return np.concatenate([away.real, away.imag])
 
     logs = np.log([start.delta, start.tau, start.beta, start.shift.c1, max(start.shift.c2 - singular, 1.0)])
     exponents = logit(np.clip([start.h, start.k / start.h], 0.01, 0.99))
-    found = least_squares(off, np.concatenate([logs, exponents]), x_scale="jac")
+    found = least_squares(misfit, np.concatenate([logs, exponents]), x_scale="jac")
     return law_of(found.x), float(np.sqrt(2.0 * (found.fun**2).mean()))

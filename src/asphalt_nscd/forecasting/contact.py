@@ -87,5 +87,5 @@ def _dents() -> Vector:
 
 
 def _dent(at: Vector, loaded: Vector) -> Vector:
-    """At a radius, by a circle of unit load over its width (Johnson, Contact Mechanics, 1985, section 3.8)."""
+    """Dent at a radius, by a circle of unit load over its width (Johnson, Contact Mechanics, 1985, section 3.8)."""
     return 4.0 / np.pi * loaded / (at + loaded) * ellipk(4.0 * at * loaded / (at + loaded) ** 2)

@@ -82,7 +82,7 @@ def _changed(recipe: Recipe, settings: Settings) -> dict[str, tuple[Recipe, Sett
     return {
         "voids": (replace(recipe, voids=recipe.voids + 0.005), settings),
         "binder": (replace(recipe, binder_share=recipe.binder_share + 0.002), settings),
-        "filler": (replace(recipe, grading=with_filler(recipe.grading, 0.01)), settings),
+        "filler": (replace(recipe, grading=refilled(recipe.grading, 0.01)), settings),
         "rigden": (replace(recipe, rigden_voids=recipe.rigden_voids + 0.05), settings),
         "stiffness": (recipe, settings),
         "aggregate": (replace(recipe, aggregate=stiffer), settings),
@@ -92,7 +92,7 @@ def _changed(recipe: Recipe, settings: Settings) -> dict[str, tuple[Recipe, Sett
     }
 
 
-def with_filler(grading: Grading, more: float) -> Grading:
+def refilled(grading: Grading, more: float) -> Grading:
     """The grading with so much `more` filler in place of all that is coarser."""
     sieve = np.union1d(grading.sieve, [FILLER])
     passing, filler = grading.passing_at(sieve), float(grading.passing_at(FILLER))

@@ -98,9 +98,9 @@ class Recipe:
         stone = (1.0 - self.binder_share) / self.aggregate_density
         return stone / (stone + self.binder_share / self.binder_density)
 
-    def beyond(self, temperature: np.ndarray) -> np.ndarray:
+    def outside(self, temperature: np.ndarray) -> np.ndarray:
         """Whether the binder's table does not reach to temperatures (n,) [degC]."""
-        return _beyond(self.measured, temperature)
+        return _outside(self.measured, temperature)
 
     def binder_modulus(self) -> np.ndarray:
         """E* [Pa] of the binder at each point."""
@@ -178,7 +178,7 @@ def _caveat(binder: Binder) -> str:
     return " ".join(filter(None, [binder.caution, "" if binder.temperature_stated else unstated]))
 
 
-def _beyond(measured: tuple[float, float] | None, temperature: np.ndarray) -> np.ndarray:
+def _outside(measured: tuple[float, float] | None, temperature: np.ndarray) -> np.ndarray:
     low, high = measured or (-np.inf, np.inf)
     return (temperature < low - WOBBLE) | (temperature > high + WOBBLE)
 
@@ -281,7 +281,7 @@ def _points(content: Mapping[str, Any], binder: Binder, path: str | Path) -> tup
     reference = binder.law.shift.reference_temperature
     if binder.shifted:
         usual = np.array(DEFAULT_TEMPERATURES)
-        usual = usual[~_beyond(binder.measured, usual)]
+        usual = usual[~_outside(binder.measured, usual)]
         temperature = np.asarray(content.get("temperatures_C", usual if usual.size else [reference]), float)
     else:
         temperature = np.array([reference])

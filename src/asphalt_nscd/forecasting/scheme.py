@@ -108,7 +108,7 @@ def volumes(recipe: Recipe) -> tuple[Vector, Vector]:
 
 
 def binder_volume(recipe: Recipe) -> float:
-    """Of the volume of the mix."""
+    """Share of the binder in the volume of the mix."""
     return (1.0 - recipe.voids) * (1.0 - recipe.aggregate_fraction)
 
 
@@ -160,12 +160,14 @@ def _contacts(
     edge, middle = (curvature * at for at in gaps(gap))
     bulk, shear = np.array(finer).transpose(1, 0, 2)
     confined = bulk + 4.0 / 3.0 * shear
-    there = [_between(np.log(at), np.log(of)) / stone.plane for at, of in ((edge, shear), (middle, confined))]
+    there = [
+        _interpolated(np.log(at), np.log(of)) / stone.plane for at, of in ((edge, shear), (middle, confined))
+    ]
     stiffness = contact_stiffness(there[0], there[1], gap) * stone.plane
     return settings.contacts * touching * stiffness / (2.0 * np.pi)
 
 
-def _between(size: Vector, log: Complex) -> Complex:
+def _interpolated(size: Vector, log: Complex) -> Complex:
     """Moduli (m, n) where grains of a log of size (n,) are the coarsest, straight between logs (s, m) at SIZES."""
     known = np.log(SIZES[: len(log)])
     place = np.interp(size, known, np.arange(len(log)))

@@ -147,7 +147,7 @@ def caution(found: Forecast) -> str:
     if recipe.shifted:
         places["aashtoware.csv"] = (np.array(DESIGN_F) - 32.0) / 1.8
     for where, temperature in places.items():
-        beyond = np.unique(temperature[recipe.beyond(temperature)])
+        beyond = np.unique(temperature[recipe.outside(temperature)])
         if recipe.measured and beyond.size:
             low, high = recipe.measured
             told.append(
@@ -209,7 +209,7 @@ def design_points(found: Forecast) -> pd.DataFrame:
         told = np.full(len(DESIGN_HZ), np.nan)
         if _reaches(found, celsius):
             told = (np.abs(found.modulus_at(2.0 * np.pi * np.array(DESIGN_HZ), celsius)) / PSI).round()
-        beyond = bool(found.recipe.beyond(np.array([celsius]))[0])
+        beyond = bool(found.recipe.outside(np.array([celsius]))[0])
         rows.append(
             {"temperature_F": fahrenheit}
             | {f"E_psi_{f:g}_Hz": e for f, e in zip(DESIGN_HZ, told, strict=True)}

@@ -34,7 +34,7 @@ def wrong_sign(table: pd.DataFrame) -> tuple[int, str] | None:
         if (phase < 0.0).all():
             slope = np.polyfit(np.log(frequency), np.log(tests["E_MPa"].to_numpy(float)), 1)[0]
             required = 90.0 * slope  # deg, by Kramers and Kronig to first order
-            if _near(-float(np.median(phase)), required) and _usual(
+            if _agrees(-float(np.median(phase)), required) and _usual(
                 table, tests, "temperature_C", temperature
             ):
                 return int(tests["row"].iloc[0]), (
@@ -44,7 +44,7 @@ def wrong_sign(table: pd.DataFrame) -> tuple[int, str] | None:
         for test in np.flatnonzero(phase < -LEAST):
             expected = _expected(frequency, phase, int(test))
             alone = _usual(table, tests, "frequency_Hz", frequency[test])
-            if expected is not None and _near(-float(phase[test]), expected) and alone:
+            if expected is not None and _agrees(-float(phase[test]), expected) and alone:
                 return int(tests["row"].iloc[test]), (
                     f"the phase at {frequency[test]:g} Hz is {phase[test]:.3g} deg, and the other frequencies of "
                     f"{place} say about +{expected:.3g} deg: the sign is wrong; remove the minus sign."
@@ -72,7 +72,7 @@ def _usual(table: pd.DataFrame, sweep: pd.DataFrame, column: str, value: float) 
     return phases.empty or bool(phases.median() > LEAST)
 
 
-def _near(turned: float, expected: float) -> bool:
+def _agrees(turned: float, expected: float) -> bool:
     return expected > LEAST and abs(turned - expected) < max(NEAR[0], NEAR[1] * expected)
 
 

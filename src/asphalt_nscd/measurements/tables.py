@@ -23,7 +23,7 @@ def read_tests(
 ) -> pd.DataFrame:
     """Tables of simulated tests put together: specimen, KEYS, MODULUS, OF_THE_LAW and the further columns named."""
     frames = []
-    for path in _some(paths):
+    for path in _given(paths):
         table = read_csv(path)
         texts_wanted, numbers_wanted = ["specimen", *texts], [*KEYS, *MODULUS, *OF_THE_LAW, *numbers]
         table.require([*texts_wanted, *numbers_wanted])
@@ -34,7 +34,7 @@ def read_tests(
 
 def read_measured(paths: Sequence[str | Path]) -> pd.DataFrame:
     """Reduced tables of measurements put together, one row for each test."""
-    return pd.concat([read_reduced(path) for path in _some(paths)], ignore_index=True)
+    return pd.concat([read_reduced(path) for path in _given(paths)], ignore_index=True)
 
 
 def origin_of(measured: pd.DataFrame) -> str:
@@ -67,7 +67,7 @@ def only_file(paths: Iterable[str | Path], kind: str) -> Path:
     return Path(paths[0])
 
 
-def _some(paths: Sequence[str | Path]) -> Sequence[str | Path]:
+def _given(paths: Sequence[str | Path]) -> Sequence[str | Path]:
     if not paths:
         raise InputError("no table given; give at least one.")
     return paths

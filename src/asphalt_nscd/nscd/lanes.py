@@ -153,7 +153,7 @@ def sqrt(typing_context: Any, value: Any) -> Any:
 
 @intrinsic
 def select_greater(typing_context: Any, a: Any, b: Any, then: Any, otherwise: Any) -> Any:
-    """In each lane `then` if a > b, else `otherwise`; NaN is not greater than anything."""
+    """Lanes that are `then` if a > b, else `otherwise`; NaN is not greater than anything."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         # ordered: NaN is not greater than anything and takes `otherwise`
@@ -240,7 +240,7 @@ def total(typing_context: Any, value: Any) -> Any:
 
 @intrinsic
 def largest(typing_context: Any, value: Any) -> Any:
-    """Of the lanes."""
+    """The largest of the lanes."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         lanes = [builder.extract_element(arguments[0], _PLACE(lane)) for lane in range(WIDTH)]

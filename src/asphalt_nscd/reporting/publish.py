@@ -14,7 +14,7 @@ from asphalt_nscd.files import digests
 from asphalt_nscd.files.commit import commit
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path, read_json, write_json
-from asphalt_nscd.reporting.layouts import shown
+from asphalt_nscd.reporting.published_tables import shown
 from asphalt_nscd.workflow_support.sources import meaning_of, source_files
 
 CHECKSUMS = "SHA256SUMS"
@@ -36,7 +36,7 @@ class Sources:
     files_read: Sequence[str]
 
     def digest(self) -> str:
-        """Of the meaning of the modules and of the bytes of the files, as they are now; "" where one is missing."""
+        """Digest of what the modules mean and of the bytes of the files, as they are now; "" where one is missing."""
         try:
             parts = [
                 meaning_of(source_files(*self.modules, without=CARRIERS)),
@@ -122,8 +122,8 @@ def fill_blocks(documents: Sequence[Path], blocks: Mapping[str, Path]) -> None:
     """Replace what stands between `<!-- name -->` and `<!-- end name -->` by a table.
 
     `blocks` names the source of each block: a Markdown source is taken as it is; of a CSV file the table is made
-    (reporting/layouts.yaml). `documents` are Markdown files or folders of them. Each block must stand once in all of
-    them together; else nothing is changed.
+    (reporting/published_tables.yaml). `documents` are Markdown files or folders of them. Each block must stand once in
+    all of them together; else nothing is changed.
     """
     pages = [page for path in documents for page in (sorted(path.glob("*.md")) if path.is_dir() else [path])]
     before = {page: page.read_text(encoding="utf-8") for page in pages}

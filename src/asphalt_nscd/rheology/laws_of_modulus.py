@@ -36,7 +36,7 @@ OFFSETS, WEIGHTS = _bode()
 
 
 @dataclass(frozen=True)
-class OfModulus(ABC):
+class LawOfModulus(ABC):
     """A law of |E*| alone, smooth over ln(frequency): its phase is the one that Kramers and Kronig require.
 
     phase(x) = 1/pi int s(x + u) ln coth(|u|/2) du, with s = d ln|E*| / dx and x = ln(frequency) (Bode 1945). Where s
@@ -81,7 +81,7 @@ class OfModulus(ABC):
 
 
 @dataclass(frozen=True)
-class Sigmoid(OfModulus):
+class Sigmoid(LawOfModulus):
     """Sigmoid of AASHTO R 84 and MEPDG, log10|E*| = delta + alpha / (1 + exp(beta + gamma log10 t_r)).
 
     `static_modulus` is its lower end 10^delta [Pa], `glassy_modulus` its upper end 10^(delta + alpha) [Pa]; at `tau`
@@ -120,7 +120,7 @@ class Sigmoid(OfModulus):
 
 
 @dataclass(frozen=True)
-class CAM(OfModulus):
+class CAM(LawOfModulus):
     """Modified law of Christensen, Anderson and Marasteanu for mixes (Zeng, Bahia, Zhai, Anderson & Turner 2001).
 
     |E*| = static + (glassy - static) / (1 + (omega tau a_T)^-v)^(w/v); the two moduli, limits at zero and infinite

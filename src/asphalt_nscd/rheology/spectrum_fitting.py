@@ -88,34 +88,42 @@ class _Problem:
 
     def __init__(
         self,
-        at: Coordinates,
+        coordinates: Coordinates,
         omega: Vector,
         temperature: Vector,
         modulus: NDArray[np.complex128],
         deviations: Vector,
         prior: Prior | None,
     ) -> None:
-        self.at, self.omega, self.temperature, self.modulus = at, omega, temperature, modulus
+        self.coordinates, self.omega, self.temperature, self.modulus = (
+            coordinates,
+            omega,
+            temperature,
+            modulus,
+        )
         self.deviations, self.prior = deviations, prior
         self.scatter = 1.0
 
     def residual(self, x: Vector) -> Vector:
         with np.errstate(over="ignore", invalid="ignore"):  # wild trial shifts; such steps are refused
-            law = self.at.build(x)
+            law = self.coordinates.build(x)
             tests = log_residual(self.modulus, law.complex_modulus(self.omega, self.temperature))
         tests /= self.deviations * self.scatter
         if self.prior is None:
             return tests
-        return np.concatenate([tests, self.prior.standardised(parameters(law), self.at.reference)[0]])
+        return np.concatenate(
+            [tests, self.prior.standardised(parameters(law), self.coordinates.reference)[0]]
+        )
 
     def jacobian(self, x: Vector) -> NDArray[np.float64]:
-        law, coordinates = self.at.build(x), self.at.log_slopes(x)
+        law, coordinates = self.coordinates.build(x), self.coordinates.log_slopes(x)
         slopes = law.log_slopes(self.omega, self.temperature)
         tests = -np.concatenate([slopes.real, slopes.imag]) / (self.deviations * self.scatter)[:, None]
         if self.prior is None:
             return tests @ coordinates
         return (
-            np.vstack([tests, self.prior.standardised(parameters(law), self.at.reference)[1]]) @ coordinates
+            np.vstack([tests, self.prior.standardised(parameters(law), self.coordinates.reference)[1]])
+            @ coordinates
         )
 
     def solve(self, start: Vector, tolerance: float = ROUGH) -> OptimizeResult:
@@ -124,7 +132,7 @@ class _Problem:
             self.residual,
             start,
             self.jacobian,
-            bounds=(self.at.low, self.at.high),
+            bounds=(self.coordinates.low, self.coordinates.high),
             xtol=tolerance,
             ftol=tolerance,
             gtol=tolerance,
@@ -139,8 +147,8 @@ class _Problem:
             return value if np.isfinite(value) else np.inf
 
         # Usual laws first: from random starts alone fits took most of a diagnosis, and one ended at 259 GPa.
-        usual = [min(group, key=cost) for group in self.at.usual_starts()]
-        return sorted(usual, key=cost)[:2] + sorted(self.at.random_starts(STARTS), key=cost)
+        usual = [min(group, key=cost) for group in self.coordinates.usual_starts()]
+        return sorted(usual, key=cost)[:2] + sorted(self.coordinates.random_starts(STARTS), key=cost)
 
     def best(self, starts: list[Vector]) -> OptimizeResult:
         """The lowest optimum of several starts; once enough were tried, two that agree on it end the search."""
@@ -185,9 +193,9 @@ class _Problem:
     def seen(self, solution: OptimizeResult) -> NDArray[np.bool_]:
         """Which parameters are off their bounds and move the residuals, those of the prior among them."""
         effect = np.linalg.norm(solution.jac, axis=0)
-        seen = self.at.inside(solution.x) & (effect > NO_EFFECT * effect.max())
-        if "c2" in self.at.names and not seen[self.at.names.index("c2")]:
-            seen[self.at.names.index("c1")] = False  # of a straight shift only C1/C2 is determined
+        seen = self.coordinates.inside(solution.x) & (effect > NO_EFFECT * effect.max())
+        if "c2" in self.coordinates.names and not seen[self.coordinates.names.index("c2")]:
+            seen[self.coordinates.names.index("c1")] = False  # of a straight shift only C1/C2 is determined
         return seen
 
     def fit(self, known: bool) -> Fit[Spectrum]:
@@ -202,7 +210,7 @@ class _Problem:
         return self.result(self.solve(last.x, PRECISE), known)
 
     def result(self, solution: OptimizeResult, known: bool) -> Fit[Spectrum]:
-        at, seen, law = self.at, self.seen(solution), self.at.build(solution.x)
+        at, seen, law = self.coordinates, self.seen(solution), self.coordinates.build(solution.x)
         values, freedom = parameters(law), self.freedom(solution)
         variance = None
         if self.prior is not None:

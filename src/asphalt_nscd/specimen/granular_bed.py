@@ -273,7 +273,7 @@ class GranularBed:
 
     @property
     def impulse(self) -> np.ndarray:
-        """Of the listed pairs (pairs, 3) [N s], on the second body; a copy, which may be assigned."""
+        """Impulse of the listed pairs (pairs, 3) [N s], on the second body; a copy, which may be assigned."""
         impulse = np.zeros((self._other.size, 3))
         if self._slabs is not None and self._workspace is not None:
             self.team.run(granular.take_out, impulse, self._slabs.pair, self._workspace.contacts)
@@ -285,7 +285,7 @@ class GranularBed:
         self.team.run(granular.lay_in, impulse, self._slabs.pair, self._workspace.contacts)
 
     def kinetic_energy(self) -> float:
-        """Of the spheres [J]; spin counts with 2/5 of its surface velocity squared."""
+        """Energy of motion of the spheres [J]; spin counts with 2/5 of its surface velocity squared."""
         n = self.radius.size
         square = (self.velocity[:n, :3] ** 2).sum(axis=1) + 0.4 * (self.velocity[:n, 3:] ** 2).sum(axis=1)
         return float(0.5 * (square / self.inverse_mass[:n]).sum())
@@ -306,7 +306,7 @@ class GranularBed:
         return float((self.position[:, 2] + self.radius).max())
 
     def weight(self) -> float:
-        """Of all spheres [N]."""
+        """Weight of all spheres [N]."""
         return float(np.linalg.norm(self.gravity) * (1.0 / self.inverse_mass[: self.radius.size]).sum())
 
     def layer_height(self) -> float:

@@ -102,9 +102,9 @@ def _check_measurements(study: Mapping[str, Any], source: str) -> None:
     for key, column in KEYS.items():
         _require_all(study[key], tests[column], f"{source}: {key}", path)
     for temperature in study["temperatures_C"]:
-        there = tests.loc[_near(tests["temperature_C"], temperature), "frequency_Hz"]
+        there = tests.loc[_agrees(tests["temperature_C"], temperature), "frequency_Hz"]
         for frequency in study["frequencies_Hz"]:
-            if not _near(there, frequency).any():
+            if not _agrees(there, frequency).any():
                 raise InputError(
                     f"{source}: {path} has no test at {temperature:g} degC, {frequency:g} Hz; add it, or "
                     "leave one of them out of temperatures_C or frequencies_Hz."
@@ -128,11 +128,11 @@ def _check_reconstruction(study: Mapping[str, Any], source: str) -> None:
 
 def _require_all(values: Sequence[float], available: Any, where: str, path: str) -> None:
     for value in values:
-        if not _near(available, value).any():
+        if not _agrees(available, value).any():
             listed = ", ".join(f"{there:.10g}" for there in np.unique(available))
             raise InputError(f"{where}: {value:.10g} is not in {path}, which has {listed}; use these.")
 
 
-def _near(values: Any, value: float) -> np.ndarray:
+def _agrees(values: Any, value: float) -> np.ndarray:
     """Which agree in the digits that tables keep."""
     return np.isclose(np.asarray(values, float), value, rtol=1e-9, atol=0.0)

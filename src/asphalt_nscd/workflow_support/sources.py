@@ -154,7 +154,7 @@ def _parse(path: Path, content: bytes) -> list[Any]:
 
 
 def _seal(content: bytes, found: list[Any]) -> str:
-    """Of what was found in a source file, by this Python and this module."""
+    """Checksum of what was found in a source file, by this Python and this module."""
     parts = (sys.version.encode(), _own(), content, json.dumps(found).encode())
     return hashlib.sha256(b"\0".join(parts)).hexdigest()
 

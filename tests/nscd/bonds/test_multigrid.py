@@ -9,6 +9,7 @@ from scipy import sparse
 from asphalt_nscd.nscd.bonds import implicit_operator as shifted
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
+from asphalt_nscd.nscd.bonds.statics import static_motion
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.reduced_model import SHIFT, ritz_basis
 from asphalt_nscd.specimen.system import bending_system
@@ -67,6 +68,17 @@ def test_static_solutions_are_no_iteration_within_another(system, monkeypatch):
     ritz_basis(system, 2)
     assert [shape for shape in solved if len(shape) == 2] == [(system.free.size, 2)] * 2
     assert len(solved) == 2 + 4
+
+
+def test_a_static_motion_leaves_no_force_on_what_is_free(system, monkeypatch):
+    """To thirteen digits, though multigrid alone solves to twelve."""
+    monkeypatch.setattr(shifted, "LARGEST_FACTORED", system.free.size - 1)
+    motion, head = static_motion(system), np.zeros(system.mass.size)
+    head[system.driven] = 1.0
+    left, begun = (
+        (system.operator.T @ (system.weight * (system.operator @ u)))[system.free] for u in (motion, head)
+    )
+    assert np.linalg.norm(left) < 1e-13 * np.linalg.norm(begun)
 
 
 def test_a_test_without_factors(system, monkeypatch):

@@ -73,6 +73,9 @@ def test_pairs_across_one_whole_slab():
         slabs, _, _ = dealt(position, np.full(9, 1e-3), 2e-4)
         last = slabs.begin.size - 2
         number = np.repeat(np.arange(last + 1), np.diff(slabs.begin))
+        np.testing.assert_array_equal(
+            number == last, slabs.second == 10
+        )  # the sphere at the edge has a slab, too
         for kind in range(2):
             spheres = [
                 set(slabs.first[number == s]) | set(slabs.second[number == s][slabs.second[number == s] < 9])

@@ -78,7 +78,7 @@ class _Evidence:
     score: Vector
 
     def conditional(self, kept: Sequence[int], held: Mapping[int, float]) -> _Evidence:
-        """Of some of them, others held at a value."""
+        """Evidence of some of the causes, others held at a value."""
         at = list(kept)
         score = self.score[at].copy()
         for k, value in held.items():
@@ -188,7 +188,7 @@ def _direction(state: fit_beside.State, cause: Cause) -> tuple[NDArray, float, i
 
 
 def _all_together(each: Sequence[_Evidence], start: Vector) -> Vector:
-    """Amplitudes (k,) of all causes at once; one that no campaign shows stays."""
+    """Amplitudes (k,) of all causes at once, by weighted least squares; an amplitude that no campaign shows stays."""
     information = np.sum([one.information for one in each], axis=0)
     score = np.sum([one.score for one in each], axis=0)
     seen = np.diag(information) > 0.0

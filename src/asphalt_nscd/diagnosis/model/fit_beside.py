@@ -47,7 +47,7 @@ class State:
         """The model whose noise holds what the laboratory adds, and no discrepancy."""
         if self.plain.observed.isotherms.size < 2:
             return self.plain
-        return laboratory.inferred(self.model.processes, self.variances).beside(self.plain, self.fitted)
+        return laboratory.inferred(self.model.processes, self.variances).joint_beside(self.plain, self.fitted)
 
     @property
     def misfit(self) -> float:

@@ -40,7 +40,7 @@ class Laboratory:
         roots = _roots(joint, at, mounting).items()
         return np.hstack([self.sizes.get(kind, LABORATORY[kind].size) * root for kind, root in roots])
 
-    def beside(self, joint: Joint, at: Fitted) -> Joint:
+    def joint_beside(self, joint: Joint, at: Fitted) -> Joint:
         """The model whose noise is that of single tests, `joint`'s, and what the laboratory adds."""
         factor = self.factor(joint, at, joint.noise.block)
         noise = joint.noise.add_discrepancy(np.concatenate([factor.real, factor.imag]))

@@ -52,7 +52,7 @@ class Noise:
         return white - taken @ (taken.T @ white)
 
     def _whitened(self, part: int, values: NDArray) -> NDArray:
-        """By the symmetric root of a variance and a share common to each block."""
+        """Values divided by the symmetric root of a variance and a share common to each block."""
         scaled = values / self.within[part].reshape(-1, *[1] * (values.ndim - 1))
         membership, pull = self._pulls[part]
         return scaled if membership is None else scaled - pull @ (membership.T @ scaled)
@@ -87,7 +87,7 @@ class Noise:
 
     @cached_property
     def log_determinant(self) -> float:
-        """Of the covariance with its discrepancy."""
+        """ln of the determinant of the covariance, discrepancy included."""
         own = sum(
             2.0 * float(np.log(within).sum())
             + float(np.log1p(np.bincount(self.block, (shared / within) ** 2)).sum())

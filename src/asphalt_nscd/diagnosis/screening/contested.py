@@ -72,7 +72,7 @@ def masked(observed: Observations, out: NDArray[np.bool_], doubtful: NDArray[np.
 
 
 def _two_stand_out(distance: NDArray[np.float64], doubtful: NDArray[np.bool_]) -> bool:
-    """Of the tests of a sweep."""
+    """Whether two tests of a sweep stand out."""
     largest = distance.max()
     off = distance > NEAR * largest
     some = 1 < np.count_nonzero(off) <= distance.size // 2 and bool((off & doubtful).any())

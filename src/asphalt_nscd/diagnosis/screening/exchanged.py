@@ -52,7 +52,7 @@ def gains(precision: NDArray, pull: NDArray, weighed: NDArray, readings: NDArray
     first, second = pairs(k)
     moved = (readings[:, second] - readings[:, first])[:, None]  # (b, 1, p, 2), to the first of each pair
 
-    def against(row: int, column: int) -> NDArray:
+    def half_curvature(row: int, column: int) -> NDArray:
         """Half the curvature (b, m, p) along a reading that moves from each second test to its first."""
         part = precision[:, :, row * k : (row + 1) * k, column * k : (column + 1) * k]
         own = np.einsum("bmii->bmi", part)
@@ -61,10 +61,12 @@ def gains(precision: NDArray, pull: NDArray, weighed: NDArray, readings: NDArray
 
     def along(column: int) -> NDArray:
         pulled = pull[:, :, column * k : (column + 1) * k]
-        return -moved[..., column] * (pulled[..., first] - pulled[..., second]) - against(column, column)
+        return -moved[..., column] * (pulled[..., first] - pulled[..., second]) - half_curvature(
+            column, column
+        )
 
     modulus, phase = along(0), along(1)
-    change = np.stack([phase, modulus, modulus + phase - 2.0 * against(0, 1)], axis=2)
+    change = np.stack([phase, modulus, modulus + phase - 2.0 * half_curvature(0, 1)], axis=2)
     return logsumexp(weighed[:, :, None, None] + change, axis=1) - logsumexp(weighed, axis=1)[:, None, None]
 
 

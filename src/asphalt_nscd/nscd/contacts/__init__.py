@@ -1,1 +1,1 @@
-"""Contacts with Coulomb friction, solved together: sweeps, Newton's method, interior points."""
+"""Contacts with Coulomb friction, solved together (`solve_contacts` in friction): sweeps, Newton, interior points."""

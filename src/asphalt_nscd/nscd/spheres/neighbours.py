@@ -274,7 +274,7 @@ def _candidates(i, centres, reach, furthest, cells, out, offset):
 
 @compiled_for_teams
 def _sort(numbers, begin, end):
-    """By insertion, which is fastest for the few partners of a sphere."""
+    """Sort in place, by insertion, which is fastest for the few partners of a sphere."""
     for k in range(begin + 1, end):
         number = numbers[k]
         m = k

@@ -62,7 +62,7 @@ class StandBy:
         return self._make(search, list(dict.fromkeys([*known, *bonds, *search.following(bonds, ahead)])))
 
     def arrays(self) -> dict[str, np.ndarray]:
-        """By name, for a file."""
+        """Arrays by name, for a file."""
         own = {"bonds": self.bonds, "owner": self.owner, "directions": self.directions}
         small = vars(self.projection).items()
         return own | {f"projection/{name}": np.asarray(value) for name, value in small}

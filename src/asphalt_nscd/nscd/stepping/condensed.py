@@ -231,7 +231,7 @@ class CondensedStepper:
         return motion, contact_force, slider
 
     def _meet_contacts(self, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Correct the velocity by the impulses of all gaps that would close within the step."""
+        """Velocities [m/s], corrected by the impulses of gaps that would close within the step, and the force [N]."""
         system, dt = self.system, self.dt
         opening_rows = system.operator[::3]
         gap = system.gap + opening_rows @ self.state.displacement
@@ -244,10 +244,10 @@ class CondensedStepper:
             touching = sorted({*touching, *closing.tolist()})
             self.on_contact(touching)
             rows = (3 * np.asarray(touching)[:, None] + np.arange(3)).ravel()
-            normal = system.operator[rows]
+            opening = system.operator[rows]
             response = self._response(touching)
-            delassus = normal[:, system.free] @ response
-            free_velocity = normal @ velocity
+            delassus = opening[:, system.free] @ response
+            free_velocity = opening @ velocity
             # an open gap may close within the step by so much; one that is closed already may not be pushed
             # open, which would add energy
             free_velocity[::3] += np.maximum(gap[touching], 0.0) / dt
@@ -255,8 +255,8 @@ class CondensedStepper:
             impulse = solution.require_converged().reactions
             corrected = velocity.copy()
             corrected[system.free] += response @ impulse
-            force = normal.T @ impulse / dt
-            self.contact = impulse / dt, normal @ corrected
+            force = opening.T @ impulse / dt
+            self.contact = impulse / dt, opening @ corrected
             closing = np.flatnonzero(gap + dt * (opening_rows @ corrected) < -CLOSED)
         return corrected, force
 

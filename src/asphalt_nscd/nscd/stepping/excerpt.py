@@ -47,7 +47,7 @@ class Excerpt:
         return self.closing[self.bounds.places(bonds)]
 
     def arrays(self) -> dict[str, np.ndarray]:
-        """By name, for a file; contributions follow from reactions."""
+        """Arrays by name, for a file; contributions follow from reactions."""
         rest = {f"rest/{name}": np.asarray(value) for name, value in vars(self.bounds.rest).items()}
         own = {name: np.asarray(getattr(self, name)) for name in (*SMALL, *NUMBERS, "reaction", "closing")}
         return own | rest | {"number": self.bounds.number, "gap": self.bounds.gap}

@@ -31,7 +31,7 @@ def draw(residuals: list[Path], diagnosis: list[Path], extended: Sequence[Path] 
     After are the tests that the study simulated again (`extended`), if it did, else what the diagnosis modelled.
     """
     content, tests = read_diagnosis(diagnosis), read_residuals(residuals)
-    means = conditions(against(tests, extended) if extended else tests, content["scatter"])
+    means = conditions(paired(tests, extended) if extended else tests, content["scatter"])
     figure, axes = style.new_figure(style.SINGLE, 112.0, rows=2, columns=2, sharex=True, sharey=True)
     letters = iter("abcd")
     for row, (quantity, (words, _)) in zip(axes, ROWS.items(), strict=True):
@@ -65,7 +65,7 @@ def draw(residuals: list[Path], diagnosis: list[Path], extended: Sequence[Path] 
     return figure
 
 
-def against(tests: pd.DataFrame, extended: Sequence[Path]) -> pd.DataFrame:
+def paired(tests: pd.DataFrame, extended: Sequence[Path]) -> pd.DataFrame:
     """Residuals with those after from the mean over simulated samples: 100 ln |E*| ratio and difference of phases."""
     simulated = averages(read_tests(extended))[["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]]
     both = tests.merge(

@@ -1,4 +1,4 @@
-"""How published tables are shown in README.md and docs/: which columns, under which headings (layouts.yaml).
+"""How published tables are shown in README.md and docs/: which columns, under which headings (published_tables.yaml).
 
 A page shows at most 120 characters in a line. A table with more columns is shown in parts, and its CSV holds the rest.
 """
@@ -43,7 +43,7 @@ class Layout(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
             told = table[table[self.notes].notna()][[*self.columns, self.notes]].astype(str)
             return "".join(f"* {', '.join(names)}: {text}\n" for *names, text in told.to_numpy().tolist())
         if self.rungs:
-            table = _beside(table, f"mre_{self.rungs}")
+            table = _by_rung(table, f"mre_{self.rungs}")
         elif self.crossed:
             table = self._crossed(table)
         else:
@@ -64,7 +64,7 @@ class Layout(msgspec.Struct, forbid_unknown_fields=True, frozen=True):
         return wide.rename(columns=str)[[*self.columns]].rename_axis(self.heading).reset_index()
 
 
-def _beside(ladder: pd.DataFrame, error: str) -> pd.DataFrame:
+def _by_rung(ladder: pd.DataFrame, error: str) -> pd.DataFrame:
     """Errors of ladder.csv, a column for each rung."""
     by = {rung: rows.set_index("temperature_C") for rung, rows in ladder.groupby("rung", sort=False)}
     printed = next(iter(by.values())).get(f"{error}_published_percent")
@@ -73,7 +73,7 @@ def _beside(ladder: pd.DataFrame, error: str) -> pd.DataFrame:
     return pd.DataFrame(columns).rename_axis("T, °C").reset_index()
 
 
-_FILE = files("asphalt_nscd.reporting") / "layouts.yaml"
+_FILE = files("asphalt_nscd.reporting") / "published_tables.yaml"
 BLOCKS: dict[str, list[Layout]] = yaml.decode(_FILE.read_bytes(), type=dict[str, list[Layout]])
 
 
