@@ -137,21 +137,6 @@ def test_figures_are_pictures_in_a_notebook(diagnosis, plot):
     assert figure._repr_png_().startswith(b"\x89PNG") and len(figure.axes) >= 2
 
 
-def test_how_it_shows_itself(diagnosis):
-    assert repr(diagnosis) == (
-        "Diagnosis(explained: channel_delay 0.000787 s (established); 71 tests used, 1 not used)"
-    )
-    html = diagnosis._repr_html_()
-    assert "<b>Data</b>" in html and "channel_delay" in html and "|E*|" in html and "<script" not in html
-    told = str(diagnosis)
-    assert (
-        told.startswith("Tests ")
-        and "\nFault           Channel delay in all tests, 0.787 +- 0.018 ms." in told
-    )
-    assert diagnosis.details.startswith(told)
-    assert f"\nWHAT WAS READ\n{diagnosis.notes[0]}" in diagnosis.details
-
-
 def test_export_of_a_diagnosis_is_that_of_its_folder(diagnosis, folder, tmp_path):
     said = [
         an.export(what, tmp_path / f"{name}.inp", "abaqus")

@@ -48,29 +48,6 @@ def test_every_public_name_is_documented_with_an_example_that_the_tests_run(name
     assert thing.__module__.removeprefix("asphalt_nscd.") in MODULES
 
 
-def public_functions():
-    """Functions of the interface and public methods of its classes, with the names of their arguments."""
-    for name in an.__all__:
-        thing = getattr(an, name)
-        inside = {f"{name}.{key}": one for key, one in vars(thing).items()} if inspect.isclass(thing) else {}
-        for called, one in {name: thing, **inside}.items():
-            one = inspect.unwrap(getattr(one, "__func__", one))
-            if inspect.isfunction(one) and "._" not in called and ".api." in one.__module__:
-                yield pytest.param(one, id=called)
-
-
-@pytest.mark.parametrize("function", list(public_functions()))
-def test_arguments_of_a_public_function_are_described_one_by_one(function):
-    """In numpydoc form; a method with one argument or none may say it in its sentence."""
-    names = [name for name in inspect.signature(function).parameters if name not in ("self", "cls")]
-    if len(names) < 2:
-        return
-    said = inspect.getdoc(function)
-    assert "Parameters\n----------\n" in said and "Returns\n-------\n" in said
-    heads = re.findall(r"^([\w, ]+) : ", said.split("Parameters\n")[1].split("Returns\n")[0], re.M)
-    assert [name for head in heads for name in head.split(", ")] == names
-
-
 @pytest.mark.parametrize(
     ("function", "step"),
     [
@@ -86,11 +63,6 @@ def test_a_function_has_the_defaults_of_the_command_line(function, step):
     ours = {name: one.default for name, one in inspect.signature(function).parameters.items()}
     shared = [name for name in ours.keys() & theirs.keys() if isinstance(theirs[name], int | float)]
     assert shared and {name: ours[name] for name in shared} == {name: theirs[name] for name in shared}
-
-
-def test_an_unknown_name_is_an_attribute_error():
-    with pytest.raises(AttributeError, match="'asphalt_nscd' has no attribute 'diagnos'"):
-        an.diagnos  # noqa: B018
 
 
 @pytest.mark.slow

@@ -191,12 +191,6 @@ def test_energy_account_where_the_full_system_takes_over(model):
     )
 
 
-@pytest.mark.parametrize("method", ["sweeps", "harmonic"])
-def test_methods_without_a_scheme(model, method):
-    with pytest.raises(InputError, match=f"method {method} has no scheme 'fitted'"):
-        run(model, method, scheme="fitted")
-
-
 def test_bonds_break_alike(model):
     """Beyond yield by either method: the same bonds, the same forces."""
     reduced, condensed = (
@@ -308,15 +302,6 @@ def test_velocity_profile(folder, model, beam):
             assert speed[sample[0], layer] == pytest.approx(mean, abs=1e-9 * np.abs(driven).max())
 
 
-def test_the_same_test_twice(folder):
-    """Histories to the last bit."""
-    for name in ("one.h5", "two.h5"):
-        simulate(files(folder, name), 15.0, small(), Numerics(DT, 10))
-    one, two = (load(folder / name, "test") for name in ("one.h5", "two.h5"))
-    assert all(one.arrays[name].tobytes() == two.arrays[name].tobytes() for name in one.arrays)
-    assert one.attributes == two.attributes
-
-
 @pytest.mark.parametrize(
     ("cycles", "time_step", "message"),
     [
@@ -373,11 +358,6 @@ def test_broken_bonds_carry_nothing_in_a_frame(model):
     assert record.broken
     assert not record.frames[-1].reaction.reshape(-1, 3)[record.broken].any()
     assert record.frames[-1].reaction.any()
-
-
-def test_frames_of_methods_that_keep_none_are_refused(model):
-    with pytest.raises(InputError, match="method harmonic keeps no frames"):
-        run(model, "harmonic", frames=2)
 
 
 def test_the_command_scales_the_amplitude_and_says_what_came_of_it(folder, capsys):

@@ -38,8 +38,3 @@ def test_file_that_lacks_a_column_or_is_of_another_kind(test_file, tmp_path):
     save(tmp_path / "model.h5", "model", {}, {})
     with pytest.raises(InputError, match="expected a test file; found a model file"):
         collect([test_file("s1"), tmp_path / "model.h5"])
-
-
-def test_nothing_to_collect():
-    with pytest.raises(InputError, match="no test files"):
-        collect([])

@@ -15,7 +15,6 @@ from asphalt_nscd.bending.further_settings import Cycling
 from asphalt_nscd.bending.model import model_of
 from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.cli import cycle as command
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, save
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import write_law
@@ -48,8 +47,3 @@ def test_a_beam_bends_with_contacts_and_its_file_is_that_of_the_command(monkeypa
     told = CliRunner().invoke(command.command, [*given, *options], catch_exceptions=False)
     assert f"phase {strong.attrs['phase_deg']:.2f} deg" in told.output
     np.testing.assert_allclose(pd.read_csv(tmp_path / "t.csv"), strong, rtol=1e-6, atol=1e-15)
-
-
-def test_refused():
-    with pytest.raises(InputError, match="fewer read_cycles"):
-        Cycling(all_cycles=3)

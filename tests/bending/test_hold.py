@@ -107,11 +107,6 @@ def test_a_commanded_force_gives_the_modulus_of_a_commanded_motion(prism):
         assert not any(name.startswith("energy") for name in record.details)
 
 
-def test_a_whole_number_is_held_as_any_other(prism):
-    named = [hold(prism, QUICK, Hold(1e-3, 10, force_N=force))["force_N"] for force in (1, 1.0)]
-    assert named[0].equals(named[1])
-
-
 @pytest.mark.parametrize(
     ("held", "share"),
     [({"force_N": 100.0}, 0.09), ({"force_N": -1e4}, 0.02), ({"displacement_m": 1e-4}, 0.02)],
@@ -173,12 +168,6 @@ def test_nonsense_is_refused():
     beam = jittered_beam().geometry
     with pytest.raises(InputError, match="give amplitude_m or amplitude_N"):
         load_case(an.Load(amplitude_m=1e-6, amplitude_N=1.0), 10.0, beam)
-
-
-def test_a_commanded_force_has_no_rig(prism):
-    for rig, numerics in ((an.Rig(channel_delay=1e-3), Numerics()), (an.Rig(), Numerics(method="sweeps"))):
-        with pytest.raises(InputError, match="a commanded force goes without devices and errors of a rig"):
-            run_test(prism, bond_law(QUICK), LoadCase(10.0, 1.0, rig=rig, by_force=True), numerics)
 
 
 @pytest.fixture

@@ -21,7 +21,6 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd import cli
 from asphalt_nscd.cli import diagnose
-from asphalt_nscd.files import commit
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save, write_table
 from asphalt_nscd.reporting.figures.save import save_figure
@@ -64,13 +63,6 @@ def test_a_console_that_lacks_letters_shows_help_all_the_same(page):
     given = os.environ | {"PYTHONIOENCODING": page}
     done = subprocess.run(command, capture_output=True, encoding=page, env=given)
     assert done.returncode == 0 and "new-study" in done.stdout and not done.stderr
-
-
-def test_what_a_laboratory_types_stands_first_and_nothing_is_missing():
-    first, steps = CliRunner().invoke(cli.group, ["--help"]).output.split("Steps of the workflow:")
-    named = [re.findall(r"^  ([a-z][a-z-]*)  ", part, re.M) for part in (first, steps)]
-    assert named[0] == ["diagnose", "serve", "compare", "forecast", "export", "new-study"]
-    assert sorted([*named[0], *named[1]]) == cli.group.list_commands(None)
 
 
 def test_help_imports_nothing_heavy():
@@ -284,19 +276,6 @@ def test_input_that_is_no_result_of_ours_is_never_removed_and_one_of_another_kin
     assert not made.exists()
 
 
-@pytest.mark.parametrize(
-    "content", ["", "specimen,E_MPa\n", "specimen,E_MPa\n1\n", "specimen,E_MPa\n\x80", '"']
-)
-def test_a_cut_table_is_made_anew_where_the_workflow_made_it_and_left_where_a_user_did(tmp_path, content):
-    for place, made in (("results/mine", True), ("results/published/mine", False), ("data", False)):
-        (table := tmp_path / place / "measured.csv").parent.mkdir(parents=True)
-        table.write_text(content, encoding="latin-1")
-        tables = (f"{kind}={place}/measured.csv" for kind in ("measured", "simulations", "published"))
-        refused(run("table", "table4", *tables, "--output", "x.csv", env=INSIDE, cwd=tmp_path))
-        assert table.exists() != made
-    assert not (tmp_path / "x.csv").exists()
-
-
 GEOMETRY = "b_mm,B_mm,e_mm,h_mm,mass_kg,mobile_mass_kg\n25,56,25,250,0.6,0.1\n"
 MODULI = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\na,10,3,5000,20\nb,10,3,5100,21\n"
 
@@ -339,15 +318,6 @@ def test_a_step_repeated_by_hand_is_no_damage_and_a_digest_cut_short_no_verdict(
     made.unlink()
     assert run(*page, cwd=tmp_path).returncode == 0
     assert not made.exists()
-
-
-def test_version_names_the_commit(monkeypatch, tmp_path):
-    assert re.fullmatch(r"asphalt-nscd 0\.1\.0, commit \S+\n", run("--version").stdout)
-    # as in an environment that lies in no repository of ours
-    monkeypatch.setattr(commit, "PACKAGE", tmp_path)
-    assert commit.commit() == "unknown"
-    (tmp_path / commit.PACKED_FROM).write_text("abc\n")
-    assert commit.commit() == "abc"
 
 
 @pytest.mark.parametrize("threads", ["0", "-2", "1000000"])

@@ -44,11 +44,8 @@ def table(seed, effect=lambda modulus, specimen, temperature, omega: modulus):
 
 EFFECTS = {
     ("channel_delay", None): (-7e-5, lambda e, s, t, w: e * np.exp(-7e-5j * w)),
-    ("phase_offset", None): (1.2, lambda e, s, t, w: e * np.exp(1j * np.radians(1.2))),
     ("moving_mass", None): (0.35, lambda e, s, t, w: e - GAMMA * 0.35 * w**2),
-    ("guide_friction", None): (2.5e8, lambda e, s, t, w: e + 2.5e8j),
     ("loose_clamp", "b"): (3.5e-12, lambda e, s, t, w: np.where(s == 1, e / (1 + 3.5e-12 * e), e)),
-    ("specimen_geometry", "c"): (-0.4, lambda e, s, t, w: np.where(s == 2, 0.6 * e, e)),
     ("temperature_bias", 15.0): (
         2.0,
         lambda e, s, t, w: LAW.complex_modulus(w, t + np.where(t == 15, 2.0, 0)),
@@ -100,14 +97,6 @@ def test_a_true_static_modulus_makes_no_misfit_where_the_tests_stay_far_from_it(
     assert ("guide_stiffness", None) not in diagnosis.ladder.limits
 
 
-def test_three_good_specimens_lose_no_test():
-    lost = 0
-    for seed in range(40):
-        three = table(seed).subset(np.arange(90))
-        lost += any(not one.used for one in suspects.find(three))
-    assert lost <= 3
-
-
 def test_one_bad_test_of_three_specimens_is_set_aside():
     three = table(3).subset(np.arange(90))
     modulus = three.modulus.copy()
@@ -122,11 +111,3 @@ def test_replicates_closer_than_tests_can_be_are_given_a_floor():
     diagnosis = diagnose(replace(exact, modulus=same))
     assert diagnosis.noise.sigma == pytest.approx((scatter.FLOOR, scatter.FLOOR))
     assert any("Check that they are separate tests" in note for note in diagnosis.notes)
-
-
-def test_what_the_head_adds_is_not_scaled_with_a_specimen():
-    """Specimens of 0.8 to 1.2 times the mix on a rig with a spring's worth of 300 MPa loss: nothing is left."""
-    observed = table(5, lambda e, s, t, w: e * np.array([0.8, 0.95, 1.05, 1.2])[s] + 3e8j)
-    diagnosis = diagnose(observed)
-    assert [rung.candidate.key[0] for rung in diagnosis.ladder.rungs][0] == "guide_friction"
-    assert diagnosis.verdict == "explained"

@@ -173,11 +173,6 @@ def test_of_an_isotherm_that_is_torn_from_the_others_less_evidence_is_asked():
         assert [one.temperature for one in suspects.broken_isotherms(turned, torn=torn)] == expected
 
 
-def test_phase_offset_of_a_whole_campaign_breaks_nothing():
-    observed = altered(campaign(), slice(None), phase_deg=3.0)
-    assert not out(observed) and not suspects.broken_isotherms(observed)
-
-
 def test_fault_in_a_cold_isotherm_is_found_beside_a_broken_hot_one():
     observed = campaign()
     hot = observed.temperature == 37.0
@@ -216,11 +211,6 @@ def test_of_one_specimen_a_flag_and_causality_take_a_test_out():
     assert found.used and found.reasons[-1] == suspects.ONE_WITNESS
 
 
-def test_flag_of_a_whole_isotherm_singles_no_test_out():
-    observed = campaign()
-    assert not suspects.find(flagged(observed, (observed.specimen == 1) & (observed.temperature == 4.0)))
-
-
 def test_quality_flag_turns_a_doubt_into_a_reason_to_drop():
     observed = campaign(scatter=(0.01, 0.3))
     row = row_of(observed, 1, 21.0, 1.0)
@@ -250,14 +240,6 @@ def test_replicates_that_find_a_test_in_place_ask_causality_for_more(monkeypatch
     in_place = np.full((observed.size, 2), 1e-9), np.ones((observed.size, 2))
     monkeypatch.setattr(suspects, "_replicate_distance", lambda *_: in_place)
     assert not out(altered(observed, [row], enough)) and out(altered(observed, [row], 2.0 * enough)) == [row]
-
-
-def test_isotherms_of_three_tests_are_not_judged():
-    observed = campaign()
-    few = observed.subset(np.isin(observed.frequency, [0.1, 1.0, 10.0]))
-    loo = within_isotherm.leave_one_out(few)
-    assert not loo.judged.any() and np.isnan(loo.required).all()
-    assert not suspects.broken_isotherms(few, loo)
 
 
 def test_table_holds_what_the_map_shows():

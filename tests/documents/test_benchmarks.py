@@ -112,25 +112,6 @@ def test_rows_that_are_not_measured_again_are_kept_with_their_commit(tmp_path):
         (tmp_path / "provenance.json").write_text('{"git_commit": "abcdef0123"}')
 
 
-def test_packings_are_compared_by_version_and_size(tmp_path):
-    """Overlaps in parts of the smallest radius, heights in mm; mean and half the range over the seeds."""
-    for seed, height in ((1, 0.062), (2, 0.064)):
-        attributes = {
-            "spheres": 3, "seed": seed, "layer_height_m": height, "poured_layer_height_m": 0.065, "solid_fraction": 0.6,
-            "coordination": 5.0, "largest_overlap_m": 1e-5, "largest_overlap_moving_m": 4e-5,
-            "poured_largest_overlap_moving_m": 2e-4, "weight_balance": 1e-4, "unbalanced_force": 2e-4,
-        }  # fmt: skip
-        save(tmp_path / f"s{seed}.h5", "deposit", {"radius": np.array([1e-3, 2e-3])}, attributes)
-    said = tell(tmp_path, "packings.py", "old=s1.h5", "new=s1.h5", "new=s2.h5", "--output", "table.csv")
-    table = pd.read_csv(tmp_path / "table.csv")
-    assert table.version.tolist() == ["old", "new", "new"]
-    assert table.vibrated_mm.tolist() == [62.0, 62.0, 64.0]
-    overlaps = table.loc[0, ["overlap_at_rest", "overlap_falling", "overlap_vibrating"]]
-    assert overlaps.tolist() == [0.01, 0.2, 0.04]
-    assert "| 3 | new | 2 | 65 ± 0 | 63 ± 1 | 0.6 ± 0 |" in said
-    assert "| 3 | old | 1 | 65 | 62 | 0.6 |" in said
-
-
 @pytest.mark.parametrize(
     ("script", "arguments", "name"),
     [
@@ -169,35 +150,12 @@ def test_stages_of_growth(tmp_path, beam):
     assert 0.2 < ratio < 2.0
 
 
-def test_fits_of_a_law(tmp_path):
-    """A row for each size and band; only hot tests leave parameters to the prior."""
-    run(tmp_path, "law.py", "--output", "rows.csv")
-    rows = pd.read_csv(tmp_path / "rows.csv")
-    assert rows.case.is_unique and len(rows) == 6 and (rows.cpu_s > 0.0).all()
-    hot = rows.case.str.contains("45 to 55")
-    assert rows.remark[hot].str.contains("glassy_modulus").all()
-    assert (rows.remark[~hot] == "from the prior: nothing").all()
-
-
 def test_a_diagnosis_of_the_whole_command(tmp_path):
     """The row says that a diagnosis was written, of the size of its table."""
     run(tmp_path, "diagnosis.py", "54", "--output", "rows.csv")
     row = pd.read_csv(tmp_path / "rows.csv").iloc[0]
     assert row.topic == "diagnosis" and row.case == "54 tests" and row.cpu_s > 0.0
     assert int(re.search(r"of (\d+) kB", row.remark)[1]) > 5
-
-
-def test_a_stage_beyond_memory_says_so(monkeypatch):
-    """In its row, with those that need it; nothing is raised."""
-    monkeypatch.syspath_prepend(str(BENCHMARKS))
-    import growth
-
-    row = growth.alone("condense", np.ones, 4 * growth.MOST_MEMORY)[0]
-    assert row["case"] == "condense" and row["remark"].startswith("not done within 16 GiB: MemoryError")
-    assert "cpu_s" not in row
-    monkeypatch.setattr(growth, "alone", lambda case, *rest: [{"case": case, "remark": "not done"}])
-    remarks = [r["remark"] for r in growth.test("s.h5", "l.json")]
-    assert remarks == ["not done", *["not done: needs condense"] * 2]
 
 
 def lying_layer(pitch, shape, seed=3):
@@ -286,7 +244,6 @@ def counts(tmp_path):
     ("arguments", "least"),
     [
         (["pouring.py", "nscd", "counts.csv", "--rest", "rest.npy"], 1),
-        (["growth.py", "prepare", 1000, PAPER, "--specimen", "specimen.h5"], 3),
         (["density.py", "counts.csv"], 4),
     ],
 )
@@ -296,7 +253,7 @@ def test_what_pours_runs_at_its_smallest_size(tmp_path, counts, arguments, least
     assert len(rows) >= least and rows.select_dtypes("number").notna().any().any()
 
 
-@pytest.mark.parametrize("method", ["sweeps", "condensed", "reduced", "chain"])
+@pytest.mark.parametrize("method", ["sweeps", "chain"])
 def test_a_cycle_by_each_method(tmp_path, beam, monkeypatch, method):
     monkeypatch.syspath_prepend(str(BENCHMARKS))
     import growth

@@ -15,13 +15,6 @@ def test_folder_that_stands_or_will_be_made_is_taken(tmp_path):
     require_writable("nowhere/at/all")
 
 
-@pytest.mark.parametrize("folder", ["results", "results/a"])
-def test_file_in_its_place_is_refused(tmp_path, folder):
-    (tmp_path / "results").write_text("mine\n")
-    with pytest.raises(InputError, match="results: is a file"):
-        require_writable(tmp_path / folder)
-
-
 def test_part_that_cannot_be_written_is_named(tmp_path, monkeypatch):
     """Root may write anywhere but on a file system that is read-only."""
     (part := tmp_path / "results/deposits").mkdir(parents=True)

@@ -157,10 +157,6 @@ def test_bad_records_are_named_with_the_row_that_calls_them(write, lines, words)
     assert "measurements.csv, line 2: record " in message and words in message
 
 
-def test_missing_record_is_named(write):
-    assert "gone.csv: no such file" in refusal(write(HEADS["records"], "A,15,10,gone.csv"))
-
-
 def test_record_in_kilonewtons_is_found_out(write, tmp_path):
     """At 40 Hz the mass term alone is 500 MPa, a modulus one could believe."""
     write_record(tmp_path / "a.csv", 40.0, 20e9, force_unit=1e-3)
@@ -249,13 +245,6 @@ def test_a_few_negative_phases_are_kept_for_the_diagnosis(write):
     assert frame["phase_deg"].min() == -0.5
 
 
-def test_missing_and_binary_files(write, tmp_path):
-    assert "no such file" in refusal(tmp_path / "absent.csv")
-    binary = tmp_path / "table.csv"
-    binary.write_bytes(b"\x89HDF\r\n\x1a\n\xff\xfe\x00")
-    assert "cannot be read as CSV text" in refusal(binary)
-
-
 G = "specimen,b_mm,B_mm,e_mm,h_mm,mass_kg,mobile_mass_kg"
 BAD_GEOMETRIES = {
     "specimen without geometry": ([G, "B,25,56,25,250,0.6,0.235"], "specimen 'A' has no geometry (known: B)"),
@@ -323,9 +312,3 @@ def test_every_row_of_a_usual_mix_tells_mega_from_giga(write, form):
                 else:
                     reduce(table)
                     (table.parent / "measured.csv").unlink()
-
-
-def test_soft_mix_that_was_only_measured_warm(write):
-    """Porous asphalt at 50 degC: the modulus of its skeleton, and phases that fall again."""
-    rows = ["A,50,10,78,33", "A,50,1,31,27", "A,50,0.1,18,19"]
-    assert reduce(write(HEADS["moduli"], *rows))["E_MPa"].tolist() == [78, 31, 18]

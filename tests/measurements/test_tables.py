@@ -38,13 +38,6 @@ def test_bad_numbers_are_refused_with_their_place(tmp_path, row, message):
         results.read_tests([write(tmp_path / "a.csv", row)])
 
 
-def test_no_table_and_missing_column_are_refused(tmp_path):
-    with pytest.raises(InputError, match="no table given"):
-        results.read_tests([])
-    with pytest.raises(InputError, match="column 'factor' is missing"):
-        results.read_tests([write(tmp_path / "a.csv", "1,15,3,100,20,101,21")], numbers=["factor"])
-
-
 def test_averages_by_hand():
     frame = pd.DataFrame(
         [(15, 3, 100, 20), (15, 3, 110, 22), (15, 10, 50, 5)],
@@ -66,9 +59,3 @@ def test_rows_of_one_temperature():
     assert len(results.isotherm_rows(frame, 15.0)) == 2
     with pytest.raises(InputError, match="no test at 5 degC; the table has 15"):
         results.isotherm_rows(frame, 5.0)
-
-
-def test_exactly_one_file():
-    assert str(results.only_file(["a"], "law")) == "a"
-    with pytest.raises(InputError, match="2 files given as 'law'"):
-        results.only_file(["a", "b"], "law")

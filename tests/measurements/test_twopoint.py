@@ -14,7 +14,6 @@ from asphalt_nscd.measurements.twopoint import (
     form_factor,
     head_response,
     mass_factor,
-    norm_and_phase,
 )
 
 PAPER = Geometry(b=25e-3, B=56e-3, e=25e-3, h=250e-3, mass=0.6, mobile_mass=0.235)
@@ -72,11 +71,6 @@ def test_a_specimen_of_twice_the_size_is_moved_twice_as_far():
     assert PAPER.usual_amplitude() == pytest.approx(63e-6, rel=1e-12)
 
 
-def test_prismatic_limit():
-    geometry = with_foot(0.025)
-    assert form_factor(geometry) == pytest.approx(4 * 0.25**3 / (0.025 * 0.025**3), rel=1e-14)
-
-
 def test_printed_equations_in_their_own_units():
     """Eqs. (1)-(2) as printed, in N, mm, g, MPa, where the factor 1e-6 belongs."""
     force, displacement_mm, psi, frequency = 60.0, 63e-3, np.radians(20.0), 25.0
@@ -93,11 +87,6 @@ def test_head_response_inverts_complex_modulus():
     force, phase = head_response(PAPER, frequency, modulus, 63e-6)
     assert phase[-1] > np.pi / 2  # soft and fast: inertia outweighs the stiffness
     np.testing.assert_allclose(complex_modulus(PAPER, frequency, force, 63e-6, phase), modulus, rtol=1e-12)
-
-
-def test_norm_and_phase():
-    norm, phase = norm_and_phase(3 + 4j)
-    assert norm == pytest.approx(5) and phase == pytest.approx(np.arctan2(4, 3))
 
 
 @pytest.mark.parametrize(

@@ -181,11 +181,3 @@ def test_the_public_rules_go_on_from_an_imported_packing(tmp_path):
     assert (
         test.phase_deg == pytest.approx(test.attributes["phase_law_deg"], abs=0.3) and not test.broken_bonds
     )
-
-
-def test_what_is_given_to_the_wrong_command_names_the_right_one(tmp_path):
-    (tmp_path / "pile.csv").write_text(FORMS["mm.csv"])
-    with pytest.raises(an.InputError, match="a folder"):
-        an.read_packing(tmp_path)
-    with pytest.raises(an.InputError, match="import-packing"):
-        an.specimen(tmp_path / "pile.csv")

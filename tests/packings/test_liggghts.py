@@ -32,11 +32,3 @@ def test_a_pile_of_liggghts_is_bonded_and_bent(tmp_path):
     assert ratio["LIGGGHTS", "facets"] == pytest.approx(ratio["this program", "facets"], rel=0.02)
     assert ratio["this program", "facets"] == pytest.approx(1.0, abs=0.05)
     assert solid["LIGGGHTS", "facets"] == pytest.approx(solid["this program", "facets"], rel=0.03)
-
-
-@pytest.mark.slow
-def test_without_liggghts_the_table_says_so(tmp_path, monkeypatch):
-    monkeypatch.setenv("PATH", str(tmp_path))
-    rows = compared(tmp_path)
-    assert rows["remark"].dropna().tolist() == ["absent: no program liggghts"]
-    assert set(rows["poured_by"]) == {"LIGGGHTS", "this program"}

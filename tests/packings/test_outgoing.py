@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from xml.etree import ElementTree
 
 import numpy as np
@@ -187,18 +186,3 @@ def test_forces_of_the_bonds_are_those_that_the_head_feels(cycle):
     rest = load(cycle / "plain.h5", "test").arrays
     assert np.allclose(rest["force_N"], test["force_N"], atol=1e-9 * largest)
     assert not any(name.startswith("frames/") for name in rest)
-
-
-@pytest.mark.parametrize(
-    ("form", "name", "names"), [("vtk", "d.csv", ".vtp"), ("abaqus", "d.inp", "vtk, csv")]
-)
-def test_what_cannot_be_is_refused(packing, tmp_path, form, name, names):
-    with pytest.raises(an.InputError, match=names):
-        an.export(packing, tmp_path / name, form)
-
-
-def test_without_vtk_no_empty_folder_is_left(cycle, tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "vtk", None)
-    with pytest.raises(an.InputError, match=r"pip install 'asphalt-nscd\[vtk\]'"):
-        an.export(cycle / "test.h5", tmp_path / "t.pvd", "vtk")
-    assert not list(tmp_path.iterdir())

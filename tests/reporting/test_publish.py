@@ -47,15 +47,6 @@ def test_blocks_are_replaced_and_the_rest_is_left(tmp_path):
     assert document.read_text() == again
 
 
-def test_missing_block_is_named(tmp_path):
-    document, table = tmp_path / "README.md", tmp_path / "t.csv"
-    document.write_text("<!-- one -->\n")
-    table.write_text("x\n1\n")
-    with pytest.raises(InputError, match="the block <!-- one --> .* must stand once"):
-        fill_blocks([document], {"one": table})
-    assert document.read_text() == "<!-- one -->\n"
-
-
 def test_a_block_is_found_in_the_page_that_holds_it(tmp_path):
     (tmp_path / "docs").mkdir()
     readme, page, table = tmp_path / "README.md", tmp_path / "docs/page.md", tmp_path / "t.csv"

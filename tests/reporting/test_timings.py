@@ -5,7 +5,6 @@ import os
 import pandas as pd
 import pytest
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.reporting.timings import elapsed, rule_times, timing_summary
 
 HEADER = "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"
@@ -66,11 +65,6 @@ def test_time_elapsed_counts_jobs_side_by_side_once_and_no_pause(tmp_path):
         os.utime(tmp_path / f"{name}.tsv", (end, end))
     # 1000 to 1014 and 1995 to 2000
     assert elapsed([*files(tmp_path), tmp_path / "never_timed.tsv"]) == pytest.approx(19.0)
-
-
-def test_no_benchmarks(tmp_path):
-    with pytest.raises(InputError, match="no benchmark files; run the workflow first"):
-        rule_times([tmp_path / "fit.tsv"], tmp_path)
 
 
 def test_markdown_sums_what_is_short(tmp_path):

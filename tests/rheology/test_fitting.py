@@ -74,11 +74,6 @@ def test_standard_errors_are_withheld_where_the_points_cannot_give_them():
     np.testing.assert_allclose(fit.law.complex_modulus(OMEGA), maxwell, rtol=3e-3)
 
 
-def test_a_fit_repeats_to_the_last_bit():
-    modulus = LAWS[30].complex_modulus(OMEGA) * np.exp(0.02j * np.arange(5))
-    assert fit_burgers(OMEGA, modulus) == fit_burgers(OMEGA, modulus)
-
-
 @pytest.mark.parametrize(
     ("omega", "modulus", "words"),
     [

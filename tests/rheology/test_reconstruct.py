@@ -12,7 +12,6 @@ from asphalt_nscd.measurements.reduction import reduce_table
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.reconstruct import fit_published, reconstruct_table
 from asphalt_nscd.rheology.sampling import Sampling
-from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
 PAPER = Path(__file__).parents[2] / "data" / "paper"
 TABLE3, GEOMETRY = PAPER / "table3_burgers.csv", PAPER / "geometry.csv"
@@ -104,14 +103,6 @@ def test_a_seed_repeats_and_specimens_do_not_depend_on_their_number(tmp_path):
     assert not np.any(other["F0_N"] == two["F0_N"])
     first, second = (two[two["specimen"] == name]["F0_N"].to_numpy() for name in ("1", "2"))
     assert not np.any(first == second)
-
-
-def test_smooth_law_can_be_kept_and_the_grid_chosen(smooth, tmp_path):
-    frame, _ = draw(tmp_path, seed=1, specimens=1, frequencies=(1.0, 30.0), law_output=tmp_path / "law.json")
-    assert (
-        read_spectrum(tmp_path / "law.json") == smooth
-    )  # the law rests on the paper's frequencies, whatever is drawn
-    assert sorted(set(frame["frequency_Hz"])) == [1.0, 30.0] and len(frame) == 12
 
 
 @pytest.mark.parametrize(

@@ -250,17 +250,6 @@ def test_rain_that_is_not_searched_falls_the_same():
     assert (np.diff(involved) >= 0).all()
 
 
-def test_the_same_motion_twice():
-    """Same spheres, same numbers to the last bit; another seed differs."""
-    numerics, results = PouringNumerics(), []
-    for seed in (3, 3, 4):
-        flock = granular_layer(seed)
-        for _ in range(150):
-            flock.advance(numerics)
-        results.append((flock.position.tobytes(), flock.velocity.tobytes(), flock.impulse.tobytes()))
-    assert results[0] == results[1] != results[2]
-
-
 def one_slab(team, position, start, other, last_body):
     """In place of slabs_of: the order of visits does not hang on how long the list is."""
     first, pair = (

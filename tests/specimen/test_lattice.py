@@ -61,8 +61,3 @@ def test_too_many_spheres_are_refused():
         )
     with pytest.raises(InputError, match="cannot hold 25 spheres"):
         random_lattice(np.array([4e-3]), np.array([25]), MIXES["crowded"][2], np.random.default_rng(1))
-
-
-def test_a_box_too_small_is_refused():
-    with pytest.raises(InputError, match="smaller than the largest sphere of 0.004 m; enlarge the box"):
-        random_lattice(np.array([4e-3]), np.array([1]), (0.1, 0.0039, 0.1), np.random.default_rng(1))

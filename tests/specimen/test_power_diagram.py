@@ -144,8 +144,3 @@ def test_negligible_facets_are_left_out(monkeypatch):
     assert power_diagram(*arguments).area.min() > 0.9 * a**2
     monkeypatch.setattr("asphalt_nscd.specimen.power_diagram.NEGLIGIBLE", 0.0)
     assert power_diagram(*arguments).area.min() < 1e-6 * a**2
-
-
-def test_equal_bits(packing):
-    once, again = (power_diagram(*packing, region_of(GEOMETRY)) for _ in range(2))
-    assert all(value.tobytes() == vars(again)[name].tobytes() for name, value in vars(once).items())

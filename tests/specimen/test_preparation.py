@@ -107,24 +107,6 @@ def test_specimen_from_deposit(folder, poured):
     assert network.first.dtype.kind == "i" and specimen.position.shape == (specimen.radius.size, 3)
 
 
-def test_a_layer_too_low_for_the_geometry(folder, poured):
-    with pytest.raises(InputError, match=r"mm high, less than the foot of the specimen \(30.0 mm\)"):
-        trim_deposit(folder / "deposit.h5", GEOMETRY | {"B_mm": 30}, Cutting(), folder / "none.h5")
-    assert not (folder / "none.h5").exists()
-
-
-@pytest.mark.parametrize("change", [{"h_mm": 61}, {"e_mm": 10.1}])
-def test_a_specimen_larger_than_the_box(folder, poured, change):
-    with pytest.raises(InputError, match=r"the specimen is .* mm (high|thick), but the box only (60|10) mm"):
-        trim_deposit(folder / "deposit.h5", GEOMETRY | change, Cutting(), folder / "none.h5")
-    assert not (folder / "none.h5").exists()
-
-
-def test_another_file_is_not_a_deposit(folder, poured):
-    with pytest.raises(InputError, match="expected a specimen file; found a deposit file"):
-        read_specimen(folder / "deposit.h5")
-
-
 def test_statistics_of_a_made_up_layer():
     """Four spheres on the floor, one large one above them."""
     radius = np.array([1.0, 1, 1, 1, 2])
@@ -144,14 +126,6 @@ def test_a_box_in_millimetres_is_refused_before_anything_is_poured():
         InputError, match=r"a box of 100 x 20 x 120 m is longer than 10 m; give its sides in m, not in"
     ):
         preparation.pour(spheres, Pouring((100.0, 20.0, 120.0), 0))
-
-
-@pytest.mark.parametrize("threads", [0, -1, 3])
-def test_threads_that_the_machine_has_not_are_refused(threads, monkeypatch):
-    monkeypatch.setattr(settings, "cores", lambda: 2)
-    sentence = f"threads = {threads}: give a whole number from 1 to 2, the cores that this machine grants."
-    with pytest.raises(InputError, match=f"^{sentence}$"):
-        preparation.pour((np.array([5e-3]), np.array([20])), Pouring((0.05, 0.02, 0.12), threads=threads))
 
 
 def test_two_threads_pour_the_same_layer(monkeypatch):
@@ -259,14 +233,6 @@ def test_arrays_that_are_no_spheres_are_refused_wherever_they_enter(wrong, said)
             bonded((arrays, {}), read_shape(GEOMETRY | {"h_mm": 50}), Cutting())
     with pytest.raises(InputError, match="no array 'radius'"):
         an.Packing({"position": GRID, "box": BOX_OF_GRID}, {})
-
-
-def test_spheres_in_one_place_are_not_poured_on():
-    """All are pairs, which would part for hours."""
-    with pytest.raises(
-        InputError, match="spheres 1 and 2 overlap by 200% of the smaller radius; give spheres apart"
-    ):
-        pour_on(np.full((260, 3), 0.015), np.full(260, 3e-3), Pouring((0.03, 0.03, 0.03)))
 
 
 def test_a_vibration_that_the_steps_do_not_follow_is_refused():

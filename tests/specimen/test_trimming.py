@@ -117,22 +117,6 @@ def test_a_layer_too_low_is_refused(layer):
         trim(position[low], radius[low], GEOMETRY, REDUCTION, REACH)
 
 
-def test_a_layer_too_short_is_refused(layer):
-    """Nothing reaches the head: its bonds would be missing."""
-    position, radius = layer
-    short = position[:, 0] < 40e-3
-    with pytest.raises(InputError, match=r"no chain of bonds joins the foot and the head .*60.0 mm\)"):
-        trim(position[short], radius[short], GEOMETRY, REDUCTION, REACH)
-
-
-def test_a_specimen_without_spheres_is_refused(layer):
-    position, radius = layer
-    with pytest.raises(InputError, match="no sphere is left after trimming"):
-        trim(position + [1.0, 0, 0], radius, GEOMETRY, REDUCTION, REACH)
-    with pytest.raises(InputError, match="no sphere is left after trimming"):
-        trim(position, radius, GEOMETRY, REDUCTION, 1e-6)  # no bonds, all grains loose
-
-
 def test_overlapping_bodies_are_refused(layer):
     """Radii not reduced far enough, or a box longer than the specimen: gaps must be positive."""
     position, radius = layer

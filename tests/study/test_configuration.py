@@ -65,11 +65,6 @@ def test_defaults_are_those_of_the_paper(config, monkeypatch):
     assert complete(left_out) == full
 
 
-def test_completing_twice_changes_nothing(config):
-    assert complete(complete(config)) == complete(config)
-    assert "test" not in config  # which is left alone
-
-
 def test_numbers_in_scientific_notation_without_a_point_are_numbers(config):
     config["test"] = {"time_step_s": "5e-5", "amplitude_m": "1e-6"}
     assert complete(config)["test"]["time_step_s"] == 5e-5
@@ -110,12 +105,6 @@ def test_a_key_that_is_an_option_bears_its_name():
     for key, place in named:
         module, kind, field = place.rsplit(".", 2)
         assert options_of(getattr(import_module(f"asphalt_nscd.{module}"), kind))[field].key == key
-
-
-def test_a_limit_in_the_schema_comes_before_those_of_the_option():
-    rules = read_schema()["properties"]["test"]["properties"]
-    assert rules["cycles"].items() >= {"type": "integer", "minimum": 2, "default": 5}.items()
-    assert rules["amplitude_m"].items() >= {"type": "number", "minimum": 1e-15, "maximum": 1}.items()
 
 
 def test_every_mapping_of_the_schema_refuses_unknown_keys():
@@ -171,12 +160,6 @@ def test_every_mapping_of_the_schema_refuses_unknown_keys():
 )
 def test_bad_study_is_refused_in_one_sentence(config, change, names):
     refused({**config, **change}, *names)
-
-
-def test_missing_key(config):
-    del config["laws"]
-    refused(config, "'laws'")
-    refused({}, "empty")
 
 
 def test_key_that_stands_twice(tmp_path):

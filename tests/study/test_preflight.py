@@ -59,10 +59,6 @@ def test_our_own_studies_are_feasible(check, study):
     check(study)
 
 
-def test_measurements_of_more_than_the_study_asks_for_are_welcome(check):
-    check(measurements=measure(*FOUR, (40, 3), (20, 25)))
-
-
 ALONE = dict.fromkeys(("time_step_study", "packing_study", "audit", "sensitivity"))
 
 
@@ -114,11 +110,6 @@ def test_geometry_table_without_a_specimen(check):
 )
 def test_implausible_geometry(check, change, names):
     refused(check, *names, geometry=check.geometry | change)
-
-
-def test_implausible_geometry_of_what_is_simulated(check):
-    light = check.specimens | {"geometry": check.geometry | {"mass_kg": 1e-7}}
-    refused(check, "specimens: geometry: mass_kg = 1e-07", specimens=light)
 
 
 def test_four_clamps_need_facets(check):

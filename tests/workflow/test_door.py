@@ -58,14 +58,13 @@ def snakemake(*arguments: str, folder: Path, **environment: str) -> subprocess.C
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, env=ENVIRONMENT | environment)
 
 
-@pytest.mark.parametrize("folder", ["workflow", "docs"])
-def test_a_folder_of_the_clone_is_as_good_as_its_root(folder):
-    arguments = ["--dry-run", "--nolock", "--quiet", "rules"]
-    arguments += [] if folder == "workflow" else ["--snakefile", "../Snakefile"]
-    done = snakemake(*arguments, folder=ROOT / folder)
+def test_a_folder_of_the_clone_is_as_good_as_its_root():
+    done = snakemake(
+        "--dry-run", "--nolock", "--quiet", "rules", "--snakefile", "../Snakefile", folder=ROOT / "docs"
+    )
     assert done.returncode == 0, done.stderr
     assert re.search(r"^simulate +120$", done.stdout + done.stderr, re.M)  # of the paper
-    assert not (ROOT / folder / ".snakemake").exists()
+    assert not (ROOT / "docs/.snakemake").exists()
 
 
 def test_the_default_profile_needs_no_plugin():
@@ -103,19 +102,6 @@ def test_as_a_module_with_prefix_and_configuration_of_its_own(outer):
     assert (outer / targets[0]).read_text().count("\n") > 2
     assert (outer / "both.txt").read_text() == "one\ntwo\n"  # commands of others are as they were
     assert not (outer / "results").exists()
-
-
-def test_as_a_module_that_snakemake_fetches(outer):
-    commit = subprocess.run(
-        ["git", "rev-parse", "HEAD"], cwd=ROOT, capture_output=True, text=True
-    ).stdout.strip()
-    if not commit:
-        pytest.skip("no git repository")
-    fetched = f'gitfile("{ROOT}", path="workflow/Snakefile", commit="{commit}")'
-    (outer / "Snakefile").write_text(OUTER.format(snakefile=fetched))
-    planned = snakemake("--dry-run", "--configfile", "config.yaml", "--quiet", "rules", folder=outer)
-    assert planned.returncode == 0, planned.stderr
-    assert re.search(r"^asphalt_simulate +4$", planned.stdout + planned.stderr, re.M)
 
 
 def test_every_step_of_a_study_names_its_software():

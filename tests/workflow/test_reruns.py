@@ -148,10 +148,6 @@ PAPER = {
         + AFTER_DIAGNOSIS,
     ),
     "a factor more": ([key("  - 1.5\n", "  - 1.5\n  - 2.0\n")], "scale_law 4 simulate_scaled 16 ..."),
-    "a line of a table beside": (
-        [Change("data/ncat/N2-1_RH.csv", "\n", "\n# more\n")],
-        "reduce_family 1 diagnose_family 1 ...",
-    ),
     "a kernel of contacts": (
         [meaning("nscd/contacts/coulomb")],
         "compile 2 deposit 4 deposit_loose 2 trim 6 trim_facets 6 trim_likely 1 trim_part 1 "
@@ -159,27 +155,14 @@ PAPER = {
         + WHOLE
         + AFTER_DIAGNOSIS,
     ),
-    "the law of bonds": (
-        [meaning("nscd/bonds/law")],
-        "compile 1 " + ALL_BONDED + WHOLE + AFTER_DIAGNOSIS,
-    ),
     "a sentence: no simulation": (
         [meaning("diagnosis/words/sentences")],
         "diagnose 1 diagnose_family 12 ...",
-    ),
-    "a family of laws": (
-        [Change("trials/drawn/laws.py", "", "\nMORE = 1\n")],
-        "draw_family 3 reduce_family 3 diagnose_family 3 ...",
-    ),
-    "the likeliest friction": (
-        [key("likeliest_friction: 0.3", "likeliest_friction: 0.5")],
-        "trim_likely 1 condense_likely 1 simulate_likely 6 ...",
     ),
     "the seed of what is reconstructed": (
         [key("seed: 2020", "seed: 2021")],
         "reconstruct 1 reduce 1 fit 6 draw_family 3 reduce_family 3 diagnose_family 3 " + AFTER_DIAGNOSIS,
     ),
-    "a caption": ([Change("workflow/report/fig09.rst", "", "\nMore.\n")], "report 1 workflow_report 1"),
 }
 # Of a table of one's own, whose fitted laws are simulated: one sample, four temperatures, four frequencies.
 OWN = {
@@ -187,10 +170,6 @@ OWN = {
     "one |E*|: the law and the tests of its temperature": (
         [Change("mine.csv", "A,10,1,9600", "A,10,1,9700")],
         "reduce 1 fit 1 simulate 4 simulate_facets 1 " + OWN_AFTER,
-    ),
-    "a temperature of the table that is not simulated": (
-        [Change("mine.csv", "A,40,1,2100", "A,40,1,2200")],
-        "reduce 1 " + OWN_AFTER,
     ),
     "one frequency more: no test of another": (
         [key("- 25\ngeometry", "- 25\n- 30\ngeometry")],
@@ -208,15 +187,8 @@ OWN = {
     ),
     "the amplitude": ([key("1.0e-05", "1.1e-05")], CAMPAIGN),
     "how tables are reduced": ([meaning("measurements/reduction")], "reduce 1 fit 4 scale_law 2 " + CAMPAIGN),
-    "the specimen": (
-        [key("mass_kg: 0.021", "mass_kg: 0.022")],
-        "reduce 1 fit 4 scale_law 2 " + SPECIMEN + CAMPAIGN,
-    ),
     "the vibration": ([key("vibration_s: 0.1", "vibration_s: 0.2")], "deposit 1 " + SPECIMEN + CAMPAIGN),
-    "a sieve": ([Change("config/smoke_counts.csv", "", "6.3,1\n")], "deposit 1 " + SPECIMEN + CAMPAIGN),
     "the draws of a diagnosis": ([key("geometry:", "diagnosis:\n  seed: 3\ngeometry:")], OWN_AFTER),
-    "a factor more": ([key("  - 0.5\n", "  - 0.5\n  - 2.0\n")], "scale_law 2 simulate_scaled 2 ..."),
-    "a sentence: no simulation": ([meaning("diagnosis/words/sentences")], "diagnose 1 ..."),
     "an advice: no simulation": ([meaning("diagnosis/next_tests/sweeps")], "diagnose 1 ..."),
     "a cause": ([meaning("diagnosis/causes/damage")], OWN_AFTER),
 }

@@ -80,14 +80,6 @@ def test_a_study_does_not_wait_for_tools_which_are_added_when_asked_for(machine)
     assert (machine / "clone/.venv/.tools").exists()
 
 
-def test_half_made_environment_is_replaced(machine):
-    install(machine, "python3", 12)
-    rubbish = machine / "clone/.venv/lib/rubbish"
-    rubbish.mkdir(parents=True)
-    assert set_up(machine)[0].returncode == 0
-    assert not rubbish.exists()
-
-
 def test_python_can_be_chosen(machine):
     install(machine, "python3.13", 13)
     install(machine, "mine", 11)

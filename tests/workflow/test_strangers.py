@@ -145,15 +145,6 @@ def test_rules_and_package_are_of_one_commit_whatever_is_installed(clone, machin
     assert "by the clone" in said(*snakemake, folder=clone, fails=True)
 
 
-def test_the_shipped_study_as_a_module_from_outside(clone, tmp_path):
-    lines = ["module asphalt:", f'    snakefile: "{clone}/workflow/Snakefile"', "    config: config"]
-    lines += ["use rule * from asphalt as asphalt_*", "rule whole:", "    default_target: True"]
-    lines += ["    input: rules.asphalt_all.input"]
-    (tmp_path / "Snakefile").write_text("\n".join(lines))
-    plan = ["--dry-run", "--quiet", "rules", "--configfile", clone / "config/smoke.yaml"]
-    assert "asphalt_simulate" in said(sys.executable, "-m", "snakemake", *plan, folder=tmp_path)
-
-
 @pytest.mark.skipif(os.getuid() != 0, reason="only root can be another user")
 def test_another_user_uses_a_clone_that_may_not_be_written(clone, head, tmp_path):
     """git itself refuses to say anything about a clone of another user."""

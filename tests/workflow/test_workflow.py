@@ -113,14 +113,6 @@ def test_misspelt_key_is_one_sentence(workspace):
     assert "Traceback" not in done.stderr
 
 
-def test_key_that_stands_twice_is_one_sentence(workspace):
-    study = workspace.configure()
-    study.write_text(study.read_text() + "study: other\n")
-    done = workspace.run("--dry-run")
-    assert done.returncode != 0
-    assert "key 'study' appears twice; keep one of the two." in done.stderr
-
-
 def test_a_forgotten_caption_is_one_sentence(workspace):
     """The recipe of CONTRIBUTING for a figure, its last step left out."""
     for name in ("workflow", "studies"):
@@ -135,17 +127,6 @@ def test_a_forgotten_caption_is_one_sentence(workspace):
     sentence = (
         "error: workflow/report/fig07.rst: no caption of fig07; write it, its title in ** on the first line."
     )
-    assert sentence in done.stderr.splitlines()
-
-
-def test_study_that_cannot_work_is_one_sentence(workspace):
-    left_out = dict.fromkeys(OPTIONAL)
-    workspace.configure(
-        measurements=workspace.measure(), temperatures_C=[0, 5, 20], laws={"simulate": "fitted"}, **left_out
-    )
-    done = workspace.run("--dry-run")
-    assert done.returncode != 0 and "Traceback" not in done.stderr
-    sentence = "error: study.yaml: temperatures_C: 5 is not in mine.csv, which has 0, 20; use these."
     assert sentence in done.stderr.splitlines()
 
 
@@ -220,14 +201,6 @@ def test_rungs_above_the_paper_s_are_simulated_with_facets_and_nothing_is_divide
     )  # for its words, and for what is simulated
     assert line.rpartition(" --output ")[0] == again.rpartition(" --output ")[0]
     assert "--facets results/smoke/facets.csv" in line
-
-
-def test_a_study_with_facets_has_no_first_rung(workspace):
-    settings = {"seeds": [1], "counts_table": "config/smoke_counts.csv", "box_m": [0.06, 0.01, 0.2]}
-    workspace.configure(specimens=settings | {"bonds": {"area": "facets"}})
-    plan = workspace.plan()
-    assert not {"trim_facets", "simulate_facets", "fracture"} & set(plan.jobs) and plan.jobs["ladder"] == 1
-    assert not any("--facets" in line or "results/smoke/facets" in line for line in plan.lines)
 
 
 def test_packings_stand_in_for_pouring(workspace):
@@ -320,11 +293,10 @@ def test_edited_record_is_reduced_again(workspace):
     assert workspace.planned(target) == {"reduce": 1}
 
 
-@pytest.mark.parametrize("study", ["smoke", "paper"])
-def test_all_asks_for_each_file_by_name(workspace, plan_of, study):
+def test_all_asks_for_each_file_by_name(workspace, plan_of):
     """Else one that a failed run left missing between newer ones would not be made."""
-    (workspace.folder / "study.yaml").write_text((workspace.folder / f"config/{study}.yaml").read_text())
-    lines = plan_of(study).lines
+    (workspace.folder / "study.yaml").write_text((workspace.folder / "config/paper.yaml").read_text())
+    lines = plan_of("paper").lines
     at = next(n for n, line in enumerate(lines) if re.fullmatch("(local)?rule all:", line))
     asked = lines[at + 1].removeprefix("    input: ").split(", ")
     made = re.findall(r"^(results/\S+)\t", workspace.run("--summary").stdout, re.MULTILINE)

@@ -60,43 +60,9 @@ def test_follows_imports_in_functions_and_relative_ones_but_not_the_packages_aro
     assert names(package, "step") == ["core/kernel.py", "core/solver.py", "errors.py", "step.py"]
 
 
-def test_module_that_imports_its_importer_ends(package):
-    assert names(package, "plotting") == ["core/kernel.py", "core/solver.py", "errors.py", "plotting.py"]
-
-
-def test_package_counts_where_it_is_named(package):
-    assert "plotting.py" in names(package, "core")
-
-
 def test_unknown_module_is_refused(package):
     with pytest.raises(ValueError, match="no module asphalt_nscd.setp"):
         sources.source_files("setp")
-
-
-def test_fits_are_no_concern_of_tests_with_published_laws():
-    """Editing the fit, or how measurements are read, must not make a hundred tests run again."""
-    steps = ("published-law", "deposit", "trim", "condense", "simulate")
-    for step in steps:
-        behind = {path.name for path in sources.source_files(f"cli.{step.replace('-', '_')}")}
-        assert not {"fitting.py", "fitted_laws.py", "reduction.py", "reconstruct.py"} & behind, step
-    assert "fitting.py" in {path.name for path in sources.source_files("cli.fit")}
-
-
-def test_plots_are_no_concern_of_the_tests_and_the_core_is():
-    def behind(*modules):
-        return {str(path.relative_to(sources.PACKAGE)) for path in sources.source_files(*modules)}
-
-    simulate, figure = behind("cli.simulate"), behind("cli.figure", "reporting.figures.isotherms")
-    assert not [name for name in simulate if name.startswith("reporting/")]
-    assert {
-        "nscd/stepping/reduced_model.py",
-        "nscd/bonds/system.py",
-        "rheology/burgers.py",
-        "bending/bending_test.py",
-    } <= simulate
-    assert "nscd/spheres/granular.py" in behind("cli.deposit")
-    assert "reporting/figures/isotherms.py" in figure and "reporting/figures/fig07.py" not in figure
-    assert not [name for name in figure if name.startswith("nscd/")]
 
 
 def test_modules_that_a_package_finds_by_itself(package):

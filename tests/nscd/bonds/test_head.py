@@ -193,21 +193,3 @@ def test_slider_behind_a_clamp(beam_system, quick_law):
     assert certificate.largest_residual <= 1e-6
     without = reduced(beam_system, quick_law, ALL).run(driven)[0]
     assert deviation(without, np.array(force)) > 0.02
-
-
-@pytest.mark.parametrize("method", [reduced, full])
-def test_slider_on_a_rigid_clamp(beam_system, quick_law, method):
-    """F_s against the motion: its fundamental adds i 4 F_s / (pi z0), its third harmonic a third of that."""
-    driven, devices, amplitude = sine(1e-6, cycles=2, rest=0), HeadDevices(guide_friction=0.03), 1e-6
-    force, without = (
-        stepper.run(driven)[0] if method is reduced else march(stepper, driven)
-        for stepper in (method(beam_system, quick_law, given) for given in (devices, HeadDevices()))
-    )
-    velocity = np.diff(driven, prepend=0.0)
-    np.testing.assert_allclose(force - without, 0.03 * np.sign(velocity), rtol=0, atol=1e-9)
-    angle = OMEGA * DT * (np.arange(driven.size) + 0.5)  # an implicit step's velocity is that of its middle
-    for harmonic in (1, 3):
-        carrier = np.exp(-1j * harmonic * angle)
-        coefficient = 2 * ((force - without) * carrier).mean()
-        expected = (-1) ** (harmonic // 2) * 4 * 0.03 / (np.pi * harmonic)
-        assert coefficient / amplitude == pytest.approx(expected / amplitude, rel=1e-3)

@@ -77,13 +77,6 @@ def test_natural_map_of_parts():
         assert scaled > 0.0
 
 
-def test_natural_map_of_what_is_not_finite():
-    w, q, _ = random_problem(3)
-    problem = ContactProblem.of(w, q, 0.4)
-    for r in (np.full(q.size, 1e200), np.full(q.size, np.nan), np.full(q.size, np.inf)):
-        assert problem.errors(r) == (np.inf, np.inf)
-
-
 @pytest.mark.parametrize("friction", [0.0, 0.4, 3.0])
 def test_projection(friction):
     for z in np.random.default_rng(2).normal(size=(40, 3)):
@@ -107,19 +100,6 @@ def test_extrapolation(count):
     results, changes = rng.normal(size=(2, count, 9))
     expected = naive_extrapolation(results, changes) if count > 1 else results[0]
     np.testing.assert_allclose(extrapolated(results, changes), expected, rtol=1e-11)
-
-
-def test_extrapolation_of_a_linear_map_ends_at_its_fixed_point():
-    """x -> A x + b in three dimensions: four results determine the fixed point."""
-    rng = np.random.default_rng(5)
-    a, b = 0.3 * rng.normal(size=(3, 3)), rng.normal(size=3)
-    x, results, changes = np.zeros(3), [], []
-    for _ in range(4):
-        results.append(a @ x + b)
-        changes.append(results[-1] - x)
-        x = results[-1]
-    fixed = np.linalg.solve(np.eye(3) - a, b)
-    np.testing.assert_allclose(extrapolated(np.array(results), np.array(changes)), fixed, rtol=1e-6)
 
 
 @pytest.mark.parametrize("sweeps", [1, 4, 12])

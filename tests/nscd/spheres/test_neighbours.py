@@ -54,16 +54,6 @@ def test_pairs_are_those_of_brute_force(n, size, spread, reach):
         assert len(expected) > 150
 
 
-def test_pairs_touching_across_cells():
-    """A lattice whose neighbours lie exactly one cell apart, where rounding decides the cell."""
-    cells = np.stack(np.meshgrid(*[np.arange(5)] * 3, indexing="ij"), axis=-1).reshape(-1, 3)
-    position, radius = 2.2e-3 * cells, np.full(125, 1e-3)
-    start, other = find_pairs(position, radius, NO_PLANES, NO_PLANES, 2.0001e-4)
-    assert other.size == 3 * 5 * 5 * 4
-    start, other = find_pairs(position, radius, NO_PLANES, NO_PLANES, 1.9999e-4)
-    assert other.size == 0
-
-
 def test_reactions_follow_their_pairs():
     """Spheres move, pairs come and go: old pairs keep their reaction, new ones start from zero."""
     rng = np.random.default_rng(2)

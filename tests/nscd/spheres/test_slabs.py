@@ -9,7 +9,7 @@ import pytest
 
 from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
-from asphalt_nscd.nscd.spheres.slabs import FAIR, LAYER, MOST_SLABS, STRIPS, first_and_end, part_of, slabs_of
+from asphalt_nscd.nscd.spheres.slabs import FAIR, LAYER, MOST_SLABS, STRIPS, part_of, slabs_of
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
@@ -90,18 +90,6 @@ def test_no_more_slabs_than_there_is_room_for():
     both = np.concatenate([position, position + [1e-4, 1.5e-3, 0.0]])
     slabs, _, _ = dealt(both, np.full(4, 1e-3), 1e-5)
     assert slabs.begin.size - 2 == MOST_SLABS // STRIPS // FAIR * FAIR
-
-
-@pytest.mark.parametrize("members", [1, 2, 3, 7])
-@pytest.mark.parametrize("slabs", [1, 2, 3, 4, 20])
-def test_each_slab_has_one_member(members, slabs):
-    mine = [
-        s
-        for rank in range(members)
-        for kind in range(3)
-        for s in range(*first_and_end(rank, members, slabs, kind), 2)
-    ]
-    assert sorted(mine) == list(range(slabs + 1))
 
 
 @pytest.mark.parametrize("kind", [0, 1, 2])

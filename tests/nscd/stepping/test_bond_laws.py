@@ -13,11 +13,9 @@ from theory.specimens import mixed, system_of
 from asphalt_nscd.nscd.bonds.head import HeadDevices
 from asphalt_nscd.nscd.bonds.law import BondLaw, BondLaws
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
-from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
-from asphalt_nscd.specimen.system import bending_system
 
 DT = 2.5e-4  # s
 RIG = HeadDevices(1e-7, 1e4, 5.0, 0.2)
@@ -52,19 +50,6 @@ def test_one_law_in_every_bond_is_the_shared_law(beam_system, quick_law, name, a
     assert runs[0].stepper.state.broken == runs[1].stepper.state.broken
     shared, own = (vars(run.account.sums) for run in runs)
     assert own == pytest.approx(shared, rel=1e-9, abs=1e-12 * abs(shared["actuator"]))
-
-
-def test_one_law_in_every_bond_by_gauss_seidel_and_in_the_frequency_domain(make_beam, quick_law):
-    system = bending_system(make_beam(shape=(2, 2, 4)), 0.35, 2.7e6, 0.7)
-    everywhere, forces = mixed(system, (quick_law, quick_law)), []
-    for law in (quick_law, everywhere):
-        stepper = SweepingStepper(system, law, 1e-4, CondensedState.rest_state(system, law), 1e-3, 20)
-        forces.append([stepper.advance(1e-4) for _ in range(5)])
-    np.testing.assert_allclose(forces[1], forces[0], rtol=1e-12)
-    one, other = (
-        driving_force(system, law.discrete_modulus(OMEGA, 0.0), OMEGA) for law in (quick_law, everywhere)
-    )
-    assert other == pytest.approx(one, rel=1e-12)
 
 
 @pytest.mark.parametrize("series", [True, False])

@@ -146,22 +146,6 @@ def test_yield_cascades_within_one_step():
     assert abs(force) < 1e-2  # what the light body's inertia still asks for
 
 
-def test_of_several_overstressed_bonds_the_worst_goes_first():
-    """Two exceed yield in the first place, two more once these are gone."""
-    step = stepper(bundle([0.30, 0.31, 0.44, 0.46]), ELASTIC, dt=1e-4)
-    step.advance(1.6e-7 / 1e-4)
-    assert step.state.broken == [1, 2, 3, 4]
-
-
-def test_only_the_overstressed_bond_breaks():
-    """The remaining bonds hold what the broken one carried: the force falls to that of three bonds."""
-    step = stepper(bundle([1.0, 1.0, 0.3, 1.0]), ELASTIC, dt=1e-4)
-    inertia = 1.6e-7 / 1e-4**2
-    force = step.advance(1.6e-7 / 1e-4) - inertia
-    assert step.state.broken == [3]
-    assert force == pytest.approx(1.6 * 3 / 4, rel=1e-4)
-
-
 @pytest.mark.parametrize("sign", [-1.0, 1.0])
 def test_no_yield_in_compression(sign):
     """The same motion breaks the bonds when it pulls and none when it pushes."""

@@ -33,17 +33,6 @@ def test_basis_is_orthonormal_in_the_stiffness(beam_system, iterations):
     np.testing.assert_allclose(gram, np.eye(gram.shape[0]), rtol=0, atol=1e-11)
 
 
-def test_basis_contains_the_sag_under_the_load(beam_system):
-    """The static displacement under gravity alone is a combination of the columns, to the 1e-13 of
-    conjugate gradients times the condition of K, 1e5."""
-    free = beam_system.free
-    basis = ritz_basis(beam_system, 0)
-    stiffness = beam_system.stiffness().toarray()[np.ix_(free, free)]
-    sag = np.linalg.solve(stiffness, beam_system.load[free])
-    found = basis[free, 1:] @ (basis[free, 1:].T @ beam_system.load[free])
-    np.testing.assert_allclose(found, sag, rtol=0, atol=1e-8 * np.abs(sag).max())
-
-
 def test_columns_without_a_direction_of_their_own_are_left_out(beam_system):
     basis = ritz_basis(beam_system, 2)
     rng = np.random.default_rng(1)

@@ -96,30 +96,6 @@ def test_full_and_reduced_agree_step_by_step(beam_system, quick_law):
     assert stepper.certificate().enrichments == 0
 
 
-def test_static_limit(beam_system):
-    """Elastic bonds pushed and held until all motion has died: force = E x_0^T K x_0 plus none of gravity."""
-    elastic = BondLaw(1e10, 1e30, np.array([]), np.array([]))
-    system = replace(beam_system, load=np.zeros_like(beam_system.load))
-    driven = np.concatenate([np.linspace(0, 1e-6, 200), np.full(1500, 1e-6)])
-    stiffness = system.stiffness().toarray()
-    free, head = system.free, system.driven
-    schur = stiffness[head, head] - stiffness[head, free] @ np.linalg.solve(
-        stiffness[np.ix_(free, free)], stiffness[free, head]
-    )
-    force = reduced(system, elastic).run(driven)[0]
-    assert force[-1] == pytest.approx(1e10 * schur * 1e-6, rel=1e-7)
-    assert march(full(system, elastic), driven)[-1] == pytest.approx(force[-1], rel=1e-10)
-
-
-def test_without_load_at_rest_nothing_happens(beam_system, quick_law):
-    """Neither load nor motion: the residual is zero over zero, which is no violation."""
-    system = replace(beam_system, load=np.zeros_like(beam_system.load))
-    stepper = reduced(system, quick_law, vectors=2)
-    force, _ = stepper.run(np.zeros(5))
-    assert not force.any()
-    assert stepper.certificate().largest_residual == 0.0
-
-
 @pytest.mark.parametrize("frequency", [40.0, 1000.0])
 def test_residual_tells_the_error(beam_system, quick_law, frequency):
     """The fewer Krylov vectors, the larger the residual and the error of the force with it. Galerkin's
@@ -235,23 +211,6 @@ def test_yield_is_not_decided_by_an_inaccurate_step():
     assert deviation(force, reference) < 1e-9
 
 
-def test_of_several_overstressed_bonds_the_worst_goes_first():
-    """Head - light body - four parallel bonds to the wall: two exceed yield at once, then two more."""
-    system = springs(
-        [1, None, None, None, None],
-        [0, 1, 1, 1, 1],
-        [1.0, 1e-6],
-        np.ones(5),
-        [np.inf, 0.30, 0.31, 0.44, 0.46],
-    )
-    basis = ritz_basis(replace(system, load=np.array([0.0, 1.0])), 0)
-    stepper = ReducedStepper(ReducedModel(system, basis), ELASTIC, 1e-4, 1e-6)
-    force, _ = stepper.run(np.full(1, 1.6e-7))
-    assert stepper.state.broken == [1, 2, 3, 4]
-    complete = full(system, ELASTIC, dt=1e-4)
-    assert force[0] == pytest.approx(complete.advance(1.6e-3), rel=1e-9)
-
-
 def test_yield_is_not_decided_before_contact():
     """Head - body between two walls: the body meets the near wall, which saves its bond to the far one."""
     system = springs([0, 1, None], [1, None, 1], [1.0, 1e-3], [1, 1e-8, 1], [np.inf, np.inf, 0.2])
@@ -314,13 +273,3 @@ def test_a_closing_gap_ends_the_reduced_run(beam_system, quick_law):
     assert before.smallest_gap > 0.0 >= smallest >= certificate.smallest_gap
     assert before.largest_residual <= certificate.largest_residual < 1e-10
     assert deviation(np.array(continued), np.array(forces[done:])) < 1e-7
-
-
-def test_contact_stiffens(beam_system, quick_law):
-    """Closed gaps can only add force: the push that closes them is dearer than with wide gaps."""
-    narrow = replace(
-        beam_system, gap=1e-3 * beam_system.gap, strength=np.full_like(beam_system.strength, np.inf)
-    )
-    wide = replace(narrow, gap=beam_system.gap)
-    driven = np.linspace(0, 3e-5, 100)[1:]
-    assert march(full(narrow, quick_law), driven)[-1] > 1.01 * march(full(wide, quick_law), driven)[-1]

@@ -9,7 +9,6 @@ import pytest
 from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
-from asphalt_nscd.files.store import load, save
 from asphalt_nscd.nscd.stepping.break_modes import StandBy
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
 from asphalt_nscd.nscd.stepping.projection import Projection
@@ -135,11 +134,3 @@ def test_directions_are_found_when_a_bond_without_them_breaks(beam_system, quick
     assert stepper.state.broken == complete.state.broken
     assert stepper.enrichments == len(complete.state.broken)
     np.testing.assert_allclose(force, reference, rtol=0, atol=1e-7 * np.abs(reference).max())
-
-
-def test_through_a_file(stand_by, tmp_path):
-    save(tmp_path / "a.h5", "stand-by", stand_by.arrays(), {})
-    again = StandBy.from_arrays(load(tmp_path / "a.h5", "stand-by").arrays)
-    for name, value in stand_by.arrays().items():
-        np.testing.assert_array_equal(again.arrays()[name], value)
-    assert isinstance(again.projection.head_norm, float)

@@ -5,14 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 import pytest
-from jsonschema import Draft202012Validator
 from matplotlib.container import ErrorbarContainer
 from matplotlib.patches import Rectangle
 from tiny_results import LAWS, modulus
 
-from asphalt_nscd.diagnosis.content.whole import schema
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import read_json, write_table
+from asphalt_nscd.files.store import write_table
 from asphalt_nscd.reporting.figures import fig10_extended, fig_black, fig_limits, fig_master, fig_residual_map
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
@@ -28,11 +26,6 @@ def texts_of(figure):
 
 def outlined(axes):
     return {patch.get_xy() for patch in axes.patches if isinstance(patch, Rectangle) and not patch.get_fill()}
-
-
-def test_tiny_diagnosis_is_what_the_schema_says(results):
-    (path,) = results.diagnosis()["diagnosis"]
-    assert not list(Draft202012Validator(schema()).iter_errors(read_json(path)))
 
 
 def test_map_marks_what_scatter_does_not_explain(results):
@@ -76,13 +69,6 @@ def test_map_after_is_that_of_the_tests_simulated_again(results):
     assert [text.get_text() for text in before.texts] == 3 * ["0.0"] + 3 * ["20"]
 
 
-def test_condition_that_was_not_tested_is_left_empty(results):
-    data = results.diagnosis()
-    table = pd.read_csv(data["residuals"][0], dtype={"specimen": str})
-    write_table(data["residuals"][0], table[(table["temperature_C"] == 0.0) | (table["frequency_Hz"] > 3.0)])
-    assert [len(axes.texts) for axes in fig_residual_map.draw(**data).axes[:4]] == [5, 5, 5, 5]
-
-
 def test_condition_that_was_not_simulated_is_empty_before(results):
     data = results.diagnosis()
     table = pd.read_csv(data["residuals"][0], dtype={"specimen": str})
@@ -121,11 +107,6 @@ def test_master_curve_stands_on_frequency_times_shift_factor(results):
     assert "at 20 °C" in norm.get_xlabel() and "reconstructed" in texts_of(figure)
 
 
-def test_without_a_common_law_there_are_no_shift_factors(results):
-    figure = fig_master.draw(**results.diagnosis(ladder=[]))
-    assert len(figure.axes) == 2 and figure.axes[0].get_xlabel() == "frequency (Hz)"
-
-
 def test_limits_stand_in_units_of_use_beside_what_was_found(results):
     figure = fig_limits.draw(diagnosis=results.diagnosis()["diagnosis"])
     delay, clamp, bias = figure.axes
@@ -144,11 +125,6 @@ def test_limits_stand_in_units_of_use_beside_what_was_found(results):
     (bar,) = found[2][0].get_segments()
     assert bar[:, 0] == pytest.approx([3.0 - 1.96 * 0.2, 3.0 + 1.96 * 0.2])
     assert "reconstructed data" in texts_of(figure)
-
-
-def test_no_limit_is_a_sentence(results):
-    figure = fig_limits.draw(diagnosis=results.diagnosis(detection_limits={})["diagnosis"])
-    assert texts_of(figure) == [fig_limits.NONE]
 
 
 def test_before_and_after_share_their_axes(results, tmp_path):
@@ -182,16 +158,6 @@ def test_before_and_after_share_their_axes(results, tmp_path):
     assert smooth.get_ydata() == pytest.approx(
         np.degrees(np.angle(law.complex_modulus(2 * np.pi * frequency, 0.0)))
     )
-
-
-def test_damaged_diagnosis_is_refused(results):
-    with pytest.raises(InputError, match=r"damaged \(.*phase_deg.*scatter.*\); delete it"):
-        fig_limits.draw(diagnosis=results.diagnosis(scatter={"modulus_percent": 1.0})["diagnosis"])
-
-
-def test_diagnosis_of_another_version_is_refused(results):
-    with pytest.raises(InputError, match="not a diagnosis of version 3; make it with `diagnose`"):
-        fig_limits.draw(diagnosis=results.diagnosis(schema_version=1)["diagnosis"])
 
 
 @pytest.mark.parametrize("draw", [fig_residual_map.draw, fig_black.draw, fig_master.draw])

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, load, save
-from asphalt_nscd.measurements.twopoint import Geometry, form_factor
 from asphalt_nscd.reporting.figures import fig06, fig07, fig08
 from asphalt_nscd.reporting.figures.records import last_cycle
 
@@ -121,27 +119,3 @@ def test_test_without_velocities_is_refused(results):
     save(path, "test", arrays, record.attributes)
     with pytest.raises(InputError, match="holds no velocities"):
         fig08.draw(test=[path], specimen=results.specimen())
-
-
-def test_prismatic_cantilever_bends_as_in_the_textbook():
-    geometry = Geometry(0.02, 0.02, 0.02, 0.2, 1.0, 0.0)
-    x = np.linspace(0.0, 0.2, 401)
-    assert geometry.line(x) == pytest.approx((0.6 * x**2 - x**3) / (2.0 * 0.2**3), abs=1e-5)
-
-
-def test_tapered_cantilever_against_the_unit_load_method():
-    geometry = Geometry(0.025, 0.056, 0.025, 0.25, 0.6, 0.235)
-
-    def compliance(at):
-        """Deflection at height `at` under 1 N at the head, times the modulus [1/m]."""
-
-        def integrand(s):
-            width = geometry.B - (geometry.B - geometry.b) * s / geometry.h
-            return (geometry.h - s) * (at - s) * 12.0 / (geometry.e * width**3)
-
-        return quad(integrand, 0.0, at, epsrel=1e-10)[0]
-
-    assert compliance(geometry.h) == pytest.approx(form_factor(geometry), rel=1e-8)
-    x = np.linspace(0.0, geometry.h, 1001)
-    half = geometry.line(x)[500]
-    assert half == pytest.approx(compliance(0.125) / compliance(0.25), rel=1e-5)

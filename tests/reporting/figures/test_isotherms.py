@@ -7,7 +7,6 @@ import pandas as pd
 import pytest
 from tiny_results import LAWS, modulus
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.reporting.figures.isotherms import figure_of
 
 fig09, fig10 = figure_of("E_MPa"), figure_of("phase_deg")
@@ -61,16 +60,6 @@ def test_law_line_is_the_law(results):
     assert axes.get_ylabel() == "phase angle (°)"
 
 
-@pytest.mark.parametrize("draw", [fig09, fig10])
-@pytest.mark.parametrize("origin", ["reconstructed", "measured", "synthetic"])
-def test_legend_says_what_the_measurements_are(results, draw, origin):
-    data = {"simulations": results.simulations(), "laws": results.laws(0.0, 20.0)}
-    figure = draw(measured=results.measured(origin), **data)
-    assert f"{origin}, mean ± s.d. of 2 specimens" in legend_of(figure)
-    assert "simulated, one sample" in legend_of(figure)
-    assert sum("reconstructed" in text for text in legend_of(figure)) == (origin == "reconstructed")
-
-
 def test_one_sample_and_one_specimen_have_no_bars(results):
     figure = fig09(
         simulations=results.simulations(), measured=results.measured(specimens=("A",)), laws=results.laws(0.0)
@@ -88,13 +77,6 @@ def test_many_frequencies_without_laws(results):
     assert "Burgers law of the bonds" not in legend_of(figure)
 
 
-def test_measurements_at_other_frequencies_are_within_the_axes(results):
-    simulations = results.simulations(frequencies=(6.0, 10.0))
-    figure = fig09(simulations=simulations, measured=results.measured(), laws=results.laws(0.0))
-    low, high = figure.axes[0].get_xlim()
-    assert low < 3.0 and high > 40.0
-
-
 def test_temperature_without_measurement_is_drawn_without(results):
     (measured,) = results.measured()
     table = pd.read_csv(measured)
@@ -105,10 +87,3 @@ def test_temperature_without_measurement_is_drawn_without(results):
     table.assign(temperature_C=table["temperature_C"] + 55.0).to_csv(measured, index=False)
     figure = fig09(simulations=results.simulations(), measured=[measured], laws=results.laws(0.0))
     assert legend_of(figure) == ["simulated, one sample", "Burgers law of the bonds"]
-
-
-def test_table_without_a_column_is_refused(results, tmp_path):
-    (path,) = results.simulations()
-    path.write_text(path.read_text().replace("E_law_MPa", "law"))
-    with pytest.raises(InputError, match="column 'E_law_MPa' is missing"):
-        fig09(simulations=[path], measured=results.measured(), laws=[])

@@ -64,20 +64,6 @@ def test_packing_one_point_per_deposit(results):
     assert axes.get_xlabel() == "solid fraction of the deposit"
 
 
-def test_open_symbols_are_explained(results):
-    packing = results.simulations(
-        name="a", frequencies=[3.0], friction=0.2, solid_fraction=0.65, mapping="paper"
-    )
-    packing += results.simulations(
-        name="b", frequencies=[3.0], friction=0.2, solid_fraction=0.65, mapping="facets"
-    )
-    (axes,) = fig_packing.draw(packing=packing).axes
-    assert [text.get_text() for text in axes.get_legend().get_texts()][1:] == [
-        "areas of Eqs. (30)-(33)",
-        "facets",
-    ]
-
-
 def test_compaction_from_the_start_of_the_vibration(results):
     (axes,) = fig_compaction.draw(deposit=results.deposit()).axes
     curve, last = axes.lines
@@ -112,13 +98,6 @@ def test_readings_are_told_apart(results):
     law = next(line for line in right.lines if line.get_label().startswith("Burgers law"))
     assert law.get_ydata() == pytest.approx([modulus(LAWS[20.0], f)[1] for f in (3.0, 10.0, 40.0)])
     assert left.get_ylabel() == "|E*| simulated / law" and right.get_ylabel() == "phase angle (°)"
-
-
-def test_readings_without_their_specimen_are_refused(results):
-    with pytest.raises(InputError, match="no simulation of the specimen"):
-        fig_readings.draw(
-            readings=readings(results), simulations=results.simulations(samples=("s9",), law_source="fitted")
-        )
 
 
 def test_stretched_bonds_pull_and_the_head_moves_by_one(results):

@@ -123,43 +123,6 @@ def test_gains_on_tests_left_out_and_on_other_data_stand_beside(results, tmp_pat
         assert words in html, words
 
 
-def test_packings_of_another_program_are_named(page, results, tmp_path):
-    page()
-    table = pd.read_csv(tmp_path / "samples.csv").assign(packing=["a.csv", "b.csv"])
-    table.to_csv(given := tmp_path / "given.csv", index=False)
-    files = results.measured(), results.simulations(("s1", "s2")), [given], results.diagnosis()["diagnosis"]
-    html = text_of(first_page(*files, [tmp_path / "map.png"], results.ladder()), tmp_path)
-    assert "bonded spheres, from packings of another program (a.csv, b.csv), tested" in html
-
-
-def test_orders_to_the_laboratory_stand_on_the_first_page(page, tmp_path):
-    order = {
-        "text": "0.5 h: test a metal reference specimen, 25 Hz.",
-        "act": "test a metal reference specimen",
-        "purpose": "",
-        "why": ["As 7.1 deg."],
-        "hours": 0.5,
-        "nats": 3.0,
-        "specimens": ["m"],
-        "temperature_C": None,
-        "frequencies_Hz": [25.0],
-        "half_strain": False,
-    }
-    given = {"instructions": {"costs": "c", "orders": [order]}}
-    html = assemble("mine", page(origin="measured", **given), [], tmp_path.glob("*.rst"))
-    assert (
-        "What to test next" in html
-        and "<li>0.5 h: test a metal reference specimen, 25 Hz. As 7.1°.</li>" in html
-    )
-    assert "<h2>What was measured</h2>" in html
-    assert "What to test next" not in assemble("mine", page(origin="measured"), [], tmp_path.glob("*.rst"))
-    # nobody can test again a specimen that never was
-    invented = assemble("mine", page(origin="reconstructed", **given), [], tmp_path.glob("*.rst"))
-    assert (
-        "What to test next" not in invented and "<h2>The data: reconstructed, not measured</h2>" in invented
-    )
-
-
 def test_entries_stand_in_their_parts_by_number_with_captions(page, tmp_path):
     captions = {
         "fig10": "**Fig. 10: b**\n\nWith *words* < 3.\n",

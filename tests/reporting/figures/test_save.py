@@ -2,10 +2,9 @@ from __future__ import annotations
 
 import matplotlib
 import numpy as np
-from matplotlib import image
 from matplotlib.figure import Figure
 
-from asphalt_nscd.reporting.figures.save import PNG_DPI, save_figure
+from asphalt_nscd.reporting.figures.save import save_figure
 
 
 def drawing():
@@ -31,9 +30,3 @@ def test_the_users_own_settings_do_not_show(tmp_path):
         save_figure(drawing(), tmp_path / "own")
     for kind in ("pdf", "png", "svg"):
         assert (tmp_path / f"plain.{kind}").read_bytes() == (tmp_path / f"own.{kind}").read_bytes(), kind
-
-
-def test_files_have_the_size_of_the_figure(tmp_path):
-    save_figure(Figure(figsize=(4.0, 2.0)), tmp_path / "fig")
-    assert image.imread(tmp_path / "fig.png").shape[:2] == (2 * PNG_DPI, 4 * PNG_DPI)
-    assert b"/MediaBox [ 0 0 288 144 ]" in (tmp_path / "fig.pdf").read_bytes()

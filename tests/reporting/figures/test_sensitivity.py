@@ -7,7 +7,6 @@ from dataclasses import replace
 import pytest
 from tiny_results import LAWS, modulus
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.reporting.figures import SEVERAL, sensitivity
 
 PARAMETERS = [of for module, of in SEVERAL.values() if module == "sensitivity"]
@@ -52,17 +51,3 @@ def test_points_labels_and_units(results):
     assert [text.get_text() for text in left.texts] == ["$E_m$ \N{MINUS SIGN}50 %", "$E_m$", "$E_m$ +50 %"]
     legend = [text.get_text() for text in figure.legends[0].get_texts()]
     assert legend[0] == "reconstructed, 20 °C"
-
-
-def test_parameter_that_was_not_varied_is_refused(results):
-    with pytest.raises(InputError, match="no test with another eta_k"):
-        sensitivity.figure_of("eta_k")(**inputs(results))
-
-
-def test_temperature_without_simulation_is_refused(results):
-    data = inputs(results)
-    data["laws"][0].write_text(
-        data["laws"][0].read_text().replace('"temperature_C": 20.0', '"temperature_C": 5.0')
-    )
-    with pytest.raises(InputError, match="no test at 5 degC"):
-        sensitivity.figure_of("Em")(**data)

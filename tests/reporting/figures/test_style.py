@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import matplotlib
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
 
-from asphalt_nscd.reporting.figures import numbers, style
+from asphalt_nscd.reporting.figures import style
 
 
 def lightness(colour):
@@ -23,10 +22,6 @@ def test_series_grow_lighter_and_have_their_own_markers(count):
     assert len({marker for _, marker in looks}) == count
 
 
-def test_blue_and_orange_differ_in_grey():
-    assert lightness(style.ORANGE) - lightness(style.BLUE) > 0.25
-
-
 @pytest.mark.parametrize("seed", range(5))
 def test_spread_keeps_distance_order_and_mean(seed):
     places = np.random.default_rng(seed).uniform(0.0, 10.0, 7)
@@ -36,24 +31,12 @@ def test_spread_keeps_distance_order_and_mean(seed):
     assert moved.mean() == pytest.approx(places.mean())
 
 
-def test_spread_leaves_alone_what_is_apart():
-    assert style.separate([5.0, 1.0, 3.0], 1.5) == pytest.approx([5.0, 1.0, 3.0])
-    assert style.separate([1.0, 1.0], 2.0) == pytest.approx([0.0, 2.0])
-
-
 def test_frequency_ticks_are_the_tested_frequencies_where_few():
     figure, axes = style.new_figure(90, 60)
     style.frequency_axis(axes, [40, 3, 6, 3])
     figure.draw_without_rendering()
     assert [label.get_text() for label in axes.get_xticklabels()] == ["3", "6", "40"]
     assert axes.get_xlabel() == "frequency (Hz)"
-
-
-def test_style_is_the_same_whatever_the_user_has_set():
-    with matplotlib.rc_context({"font.size": 20.0, "axes.grid": True}):
-        seen = style.journal(lambda: (matplotlib.rcParams["font.size"], matplotlib.rcParams["axes.grid"]))()
-        assert matplotlib.rcParams["font.size"] == 20.0
-    assert seen == (8.0, False)
 
 
 def test_labels_at_ends_are_in_the_order_of_the_lines_and_apart():
@@ -69,11 +52,6 @@ def test_labels_at_ends_are_in_the_order_of_the_lines_and_apart():
         "upper?",
         "upper",
     ]
-
-
-def test_temperatures_have_a_true_minus():
-    assert numbers.celsius(-10.0) == "\N{MINUS SIGN}10 °C"
-    assert numbers.celsius(12.5) == "12.5 °C"
 
 
 def test_axes_stand_where_the_last_bit_of_the_layout_does_not_show():

@@ -1,9 +1,6 @@
 from __future__ import annotations
 
-import pytest
-
 from asphalt_nscd.bending.collect import COLUMNS
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save
 from asphalt_nscd.reporting.tables import packing
 
@@ -26,12 +23,3 @@ def test_each_test_stands_beside_its_own_deposit(tmp_path):
     assert list(both["mapping"]) == ["paper", "facets"]
     found = table.set_index("specimen")[["friction", "solid_fraction"]]
     assert {name: tuple(row) for name, row in found.iterrows()} == expected
-
-
-def test_deposit_that_is_missing_is_noticed(tmp_path):
-    row = {column: 1.0 for column in COLUMNS} | {"specimen": "s9", "law_source": ""}
-    save(tmp_path / "s9.h5", "test", {}, row)
-    layer = {"layer_height_m": 0.06, "coordination": 5.0, "friction": 0.2, "solid_fraction": 0.6}
-    save(tmp_path / "s1.h5", "deposit", {}, layer)
-    with pytest.raises(InputError, match="no deposit s9.h5"):
-        packing.make(tests=[tmp_path / "s9.h5"], deposits=[tmp_path / "s1.h5"])

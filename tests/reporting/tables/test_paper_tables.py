@@ -81,11 +81,3 @@ def test_what_was_left_out_does_not_come_back_through_the_start():
     cold = temperature == 0.0
     one, other = (law.modulus(x, omega[cold], temperature[cold]) for x in predicted)
     np.testing.assert_allclose(np.abs(one), np.abs(other), rtol=0.02)
-
-
-def test_three_temperatures_tell_nothing_of_one_left_out(exact, tmp_path):
-    table = pd.read_csv(exact)
-    write_table(tmp_path / "three.csv", table[table["temperature_C"] > -10.0])
-    found = rivals.make(measured=[tmp_path / "three.csv"])
-    assert found["inner_temperatures_E_percent"].isna().all()
-    assert found["inner_frequencies_E_percent"].notna().all()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save
 from asphalt_nscd.reporting.tables.samples import make
 
@@ -28,8 +27,3 @@ def test_tests_with_broken_bonds_do_not_count(data):
     assert (row["E_over_law_lowest"], row["E_over_law_highest"]) == pytest.approx((1.10, 1.12))
     assert row["largest_phase_difference_deg"] == pytest.approx(0.2)
     assert (row["tests"], row["tests_with_broken_bonds"]) == (3, 1)
-
-
-def test_sample_without_its_deposit_is_named(data):
-    with pytest.raises(InputError, match="no deposit s1.h5"):
-        make(data["simulations"], [])

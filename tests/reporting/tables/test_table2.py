@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.reporting.tables.table2 import counts_of_grading, make
 
 
@@ -23,11 +22,6 @@ def test_numbers_go_with_mass_over_volume():
 def test_rounded_numbers_add_up():
     counts = counts_of_grading(np.array([4.0, 2.0]), np.array([60.0, 30.0]), 2.0, 702)
     assert counts.sum() == 702 and dict(counts) == {2.0: 602, 4.0: 100}  # 601.71 and 100.29
-
-
-def test_sieve_that_retains_nothing_gives_no_spheres():
-    counts = counts_of_grading(np.array([2.0, 4.0, 8.0]), np.array([50.0, 100.0, 100.0]), 2.0, 10)
-    assert dict(counts) == {2.0: 10}
 
 
 def test_the_papers_table_follows_from_its_grading_within_four_spheres():
@@ -52,10 +46,3 @@ def test_other_sizes_used_than_published(tmp_path):
     assert list(table["diameter_mm"]) == [2, 3, 4]
     assert list(table["count_used"].fillna(0)) == [0, 5, 0]
     assert list(table["volume_published_percent"].fillna(0)) == pytest.approx([4800 / 112, 0, 6400 / 112])
-
-
-def test_falling_curve_is_refused():
-    with pytest.raises(InputError, match="falls with the diameter"):
-        counts_of_grading(np.array([2.0, 4.0]), np.array([60.0, 50.0]), 2.0, 10)
-    with pytest.raises(InputError, match="retains nothing from 8 mm up"):
-        counts_of_grading(np.array([2.0, 4.0]), np.array([50.0, 60.0]), 8.0, 10)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.reporting.tables.table3 import make
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.laws_io import write_law
@@ -46,16 +45,6 @@ def test_temperature_that_was_not_published_stands_alone(data):
     table = make(**data)
     assert table.loc[table["temperature_C"] == 5.0, "published"].isna().all()
     assert set(table.loc[table["temperature_C"] == 5.0, "fitted_to"]) == {"measured"}
-
-
-def test_without_published_laws(data):
-    assert not {"published", "fitted_over_published"} & set(make(data["fitted"], data["measured"]))
-
-
-def test_law_that_was_not_fitted_is_refused(data, tmp_path):
-    write_law(tmp_path / "p.json", Burgers(1e9, 1e9, 1e9, 1e9), source="published", temperature=20.0)
-    with pytest.raises(InputError, match="not fitted"):
-        make([tmp_path / "p.json"], data["measured"])
 
 
 def test_fit_with_as_many_unknowns_as_data_has_an_empty_standard_error(data, tmp_path):

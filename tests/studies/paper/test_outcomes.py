@@ -55,18 +55,6 @@ def readings(said=1.1, allowed=1.0):
     )
 
 
-def test_each_reading_of_the_bonds_stands_beside_that_of_the_study():
-    row = by_id(outcomes.laws_and_samples(some_tests(), PACKING, readings()))["macro_is_micro"]
-    assert (
-        "2 mm (our reading) make 70 bonds in a sample and a ratio of 1.1, 1.931 mm 60 and 1.05."
-        in row.evidence
-    )
-    assert f"allow these readings, and chose them: {OURS}, friction 0.5: 1.000. rmin" in row.evidence
-    assert "turn |E*|" not in row.evidence and row.verdict == LEFT_OPEN
-    blocked = outcomes.laws_and_samples(some_tests(), PACKING, readings(), blocked=[2.3, 2.4])
-    assert "turn |E*| is 2.30 to 2.40 times" in by_id(blocked)["macro_is_micro"].evidence
-
-
 def test_bonds_read_literally_and_their_poisson_ratio():
     rows = by_id(outcomes.bonds(readings()))
     assert rows["barycentre"].ours == "80 or 1.1" and rows["barycentre"].verdict == LEFT_OPEN
@@ -90,15 +78,6 @@ def test_ratio_and_its_dependence_on_the_packing():
     assert rows["one_ratio"].ours == pytest.approx(0.1) and rows["one_ratio"].verdict == HOLDS
     assert rows["fluctuations"].ours == pytest.approx(0.02) and rows["fluctuations"].verdict == UNCHECKED
     assert rows["yield_stress"].verdict == REPRODUCED
-
-
-def test_facets_stand_beside_and_are_not_counted_among_the_packings():
-    both = pd.concat([PACKING.assign(mapping="paper"), PACKING.assign(mapping="facets", E_MPa=1.001)])
-    ratio = by_id(outcomes.laws_and_samples(some_tests(), both, readings(), some_tests(ratio=1.0)))[
-        "macro_is_micro"
-    ]
-    assert "Bonds that are facets give 1.000 in" in ratio.evidence
-    assert "1.100 at 0.680" in ratio.evidence and "1.001" not in ratio.evidence
 
 
 def test_tests_that_break_bonds_are_counted_and_left_out_of_the_ratio():
@@ -230,11 +209,6 @@ DEPOSIT = {
     "periods_with_contact": 28,
 }
 SPECIMEN = {"spheres": 9500, "density": 3850.0}
-
-
-def test_reduced_study_checks_no_layer():
-    rows = by_id(outcomes.samples([DEPOSIT | {"spheres": 890}], [SPECIMEN], [0.95]))
-    assert {rows[name].verdict for name in ("segregation", "layer", "top_layers")} == {UNCHECKED}
 
 
 @pytest.mark.parametrize(

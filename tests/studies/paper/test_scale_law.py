@@ -34,14 +34,3 @@ def test_factor_that_leaves_no_law(law, tmp_path, factor):
     with pytest.raises(InputError, match="give a number from 1e-06 to 1e\\+06"):
         scale_law(law, "Em", factor, tmp_path / "scaled.json")
     assert not (tmp_path / "scaled.json").exists()
-
-
-def test_unknown_parameter(law, tmp_path):
-    with pytest.raises(InputError, match="give one of Em, eta_m, Ek, eta_k"):
-        scale_law(law, "nu", 2.0, tmp_path / "scaled.json")
-
-
-def test_file_that_is_no_law(tmp_path):
-    (tmp_path / "x.json").write_text('{"law": "2s2p1d"}')
-    with pytest.raises(InputError, match="key 'Em_Pa' is missing"):
-        scale_law(tmp_path / "x.json", "Em", 2.0, tmp_path / "scaled.json")

@@ -127,23 +127,6 @@ def test_a_wrongly_noted_temperature_must_not_become_a_bias():
     assert not row(noted, "slip", reading={"off_target": [off | {"specimen": "S2"}]})["told"]
 
 
-def test_intervals_with_zero_are_seen():
-    assert row(None, "nothing", ladder=[entry("phase_offset", 0.1, 0.06)])["hold_zero"] == 1
-    assert row(None, "nothing", ladder=[entry("phase_offset", 0.2, 0.06)])["hold_zero"] == 0
-
-
-@pytest.mark.parametrize(
-    ("answer", "unsaid"),
-    [
-        ("Faults          None found.", True),
-        ("Fault  Self-heating", False),
-        ("Fault  None is certain.\nEffect  Self heating", False),
-    ],
-)
-def test_causes_kept_back_are_seen(answer, unsaid):
-    assert row(None, "nothing", answer=answer, ladder=[entry("self_heating")])["unsaid"] == unsaid
-
-
 def test_names_that_a_measured_table_had_before_are_not_added():
     case = Case("catalogue", (Fault("phase_offset", 1.0),), 3.0)
     said = content(entry("phase_offset"), entry("self_heating"))
@@ -163,16 +146,6 @@ def test_a_measured_table_is_itself_until_something_is_put_in(tmp_path):
     moved = read.response(np.full(n, 2.0), np.ones(n)) - read.response(np.zeros(n), np.ones(n))
     true = CAMPAIGN.response(np.full(n, 2.0), np.ones(n)) - CAMPAIGN.response(np.zeros(n), np.ones(n))
     assert np.median(abs(moved.real / true.real - 1.0)) < 0.3
-
-
-def test_the_folder_of_the_environment_is_read_and_other_files_are_passed_over(tmp_path, monkeypatch):
-    put(CAMPAIGN, ()).to_csv(tmp_path / "a.csv", index=False)
-    (tmp_path / "b.csv").write_text("mix,voids\nA,5\n")
-    (tmp_path / "copy.csv").write_bytes((tmp_path / "a.csv").read_bytes())
-    monkeypatch.setattr(measured, "SHIPPED", tmp_path / "none")
-    assert measured.paths() == []
-    monkeypatch.setenv(measured.FOLDER, str(tmp_path))
-    assert [path.name for path in measured.paths()] == ["a.csv"]
 
 
 def test_rates_have_wilsons_interval():

@@ -155,30 +155,6 @@ def test_what_is_outside_the_catalogue_hits_its_own_tests_alone(kind):
     assert np.isfinite(after[["E_MPa", "phase_deg"]]).all(axis=None)
 
 
-def test_files_change_places_and_copies_have_the_same_digits():
-    campaign = invented(0, seed=1)
-
-    def table(*kinds):
-        faults = tuple(Fault(kind, specimen="S1", temperature=0.0, other="S3") for kind in kinds)
-        return put(campaign, faults).set_index(["specimen", "temperature_C", "frequency_Hz"])
-
-    before, swapped, copied = table(), table("exchanged specimens"), table("copied block")
-    for frequency in (3.0, 40.0):
-        one, three = ("S1", 0.0, frequency), ("S3", 0.0, frequency)
-        assert swapped.loc[one, "E_MPa"] == before.loc[three, "E_MPa"] != before.loc[one, "E_MPa"]
-        assert swapped.loc[three, "phase_deg"] == before.loc[one, "phase_deg"]
-        assert (copied.loc[one] == copied.loc[three]).all() and (copied.loc[three] == before.loc[three]).all()
-
-
-def test_a_recorded_temperature_is_wrong_and_the_specimen_was_not():
-    campaign = invented(1, seed=1)
-    fault = Fault("wrong recorded temperature", 1.7, specimen="S1", temperature=20.0)
-    before, after = put(campaign, ()), put(campaign, (fault,))
-    assert (after["E_MPa"] == before["E_MPa"]).all()
-    moved = after["temperature_C"] - before["temperature_C"]
-    assert sorted(set(moved.round(6))) == [0.0, 1.7] and (moved > 0.0).sum() == fault.rows(campaign).sum()
-
-
 def test_broken_isotherms_break_causality_beyond_scatter():
     """Less modulus in slow tests is a steeper line, which asks for more phase; they have less."""
     campaign = invented(3, seed=1)
@@ -188,12 +164,6 @@ def test_broken_isotherms_break_causality_beyond_scatter():
     assert change[0].real < -0.1
     assert np.degrees(change[0].imag) < -2.0
     assert abs(change[-1].imag) < np.radians(1.5)
-
-
-def test_every_design_is_broken_now_and_then():
-    broken = [c for c in (invented(n, seed=1) for n in range(56)) if c.broken is not None]
-    assert len(broken) == 14
-    assert len({(c.bench, tuple(c.isotherms), c.tests["frequency_Hz"].nunique()) for c in broken}) == 8
 
 
 def test_a_cause_comes_at_multiples_of_its_limit_in_its_place(bending):

@@ -5,7 +5,6 @@ from __future__ import annotations
 from base64 import b64encode
 from io import BytesIO
 
-import pandas as pd
 import pytest
 from browser.chromium import Page, find
 from browser.look import WIDTHS, look
@@ -89,19 +88,6 @@ def test_page_of_a_diagnosis_can_be_used(found, results, tmp_path, width):
         assert (tmp_path / name).exists()
     (tmp_path / "page.html").write_text(render(sections(**made), "A diagnosis", ["residuals.csv"]))
     assert found(tmp_path / "page.html", width) == []
-    assert found(tmp_path / "page.html", width, use) == []
-
-
-@pytest.mark.parametrize("width", WIDTHS)
-def test_page_of_few_tests_has_no_empty_chart(found, results, tmp_path, width):
-    """Of isotherms with fewer than four tests, which are not held against causality."""
-    paths = results.causality()
-    table = pd.read_csv(paths[0]).assign(phase_required_deg=None, std_error_deg=None)
-    table.to_csv(paths[0], index=False)
-    made = results.diagnosis() | {"causality": paths}
-    html = render(sections(**made), "A diagnosis")
-    assert html.count('class="chart"') == html.count('class="said"') < html.count("<figure")
-    (tmp_path / "page.html").write_text(html)
     assert found(tmp_path / "page.html", width, use) == []
 
 

@@ -9,24 +9,6 @@ import pytest
 from fuzz import calls
 
 import asphalt_nscd as an
-from asphalt_nscd.files.ranges import Range
-
-
-def test_numbers_are_of_their_range_and_of_many_sizes():
-    rng = np.random.default_rng(1)
-    ranges = (
-        Range(low=0.0, high=60.0),
-        Range(above=0.0),
-        Range(above=-1.0, high=0.5),
-        Range(low=0.0, below=1.0),
-    )
-    for allowed in ranges:
-        drawn = [calls.number(rng, allowed, 0.3) for _ in range(500)]
-        assert all(allowed.holds(one) for one in drawn)
-        ends = [end for end in (allowed.low, allowed.high) if np.isfinite(end)]
-        assert all(end in drawn for end in ends)
-        assert min(one for one in drawn if one > 0.0) < 1e-3 * 0.3
-    assert max(calls.number(rng, Range(above=0.0), 0.3) for _ in range(500)) > 300.0
 
 
 def test_a_seed_repeats_its_call_and_all_functions_are_called():
