@@ -58,18 +58,6 @@ def test_each_isotherm_may_have_one():
     assert out(wrong) == sorted(cold + warm)
 
 
-def test_exchange_in_a_broken_isotherm_leaves_the_size_of_the_break():
-    observed = campaign()
-    hot = observed.temperature == 37.0
-    departure = -12.0 * (np.log(observed.frequency / 0.1) / np.log(250.0)) ** 2
-    broken = altered(observed, hot, phase_deg=departure[hot])
-    wrong = with_exchange(broken, rows := places(observed, 37.0), "both")
-    assert out(wrong) == rows
-    (given,), (found,) = suspects.broken_isotherms(broken), suspects.broken_isotherms(wrong)
-    assert found.frequency == pytest.approx(FREQUENCIES)
-    assert found.difference == pytest.approx(given.difference, abs=0.7)
-
-
 def test_exchanged_phases_lie_on_no_side():
     observed = campaign().subset(np.arange(6))
     wrong = with_exchange(observed, [0, 5], "phase")
@@ -116,23 +104,6 @@ def test_in_an_isotherm_without_order_nothing_is_exchanged(seed, size):
     hot = observed.temperature == 37.0
     disorder = size * np.random.default_rng(seed).standard_normal(observed.size)
     assert not within_isotherm.leave_one_out(altered(observed, hot, phase_deg=disorder[hot])).exchanged
-
-
-def test_sentence_tells_both_readings_and_where_to_look():
-    observed = campaign()
-    rows = places(observed)
-    low, high = np.degrees(observed.logarithm.imag[rows])
-    for what, words in (
-        (
-            "phase",
-            f"phase {low:.1f} deg at 5 Hz and {high:.1f} deg at 0.5 Hz: each would fit in the place of ",
-        ),
-        ("modulus", "|E*| "),
-        ("both", "|E*| and phase "),
-    ):
-        (reason,) = suspects.find(with_exchange(observed, rows, what))[0].reasons
-        assert reason.startswith(words)
-        assert reason.endswith(f"the two {'tests' if what == 'both' else 'readings'} were exchanged")
 
 
 @pytest.mark.parametrize("columns", exchanged.COLUMNS)

@@ -85,16 +85,6 @@ def test_metal_is_ordered_once_and_each_order_says_why(many_orders):
     assert all(one["why"] for one in many_orders)
 
 
-def test_no_test_is_ordered_twice(many_orders):
-    ordered = [
-        (specimen, one["temperature_C"], frequency, one["half_strain"])
-        for one in many_orders
-        for specimen in one["specimens"]
-        for frequency in one["frequencies_Hz"]
-    ]
-    assert len(ordered) == len(set(ordered)) > 0
-
-
 @pytest.mark.parametrize("column", ["order", "cycles"])
 def test_a_specimen_that_was_worn_is_asked_for_further_tests(column):
     """A cause that follows the course of the tests; a new specimen has borne none."""
@@ -188,37 +178,6 @@ def test_an_odd_isotherm_is_to_be_tested_again():
     assert again["why"][0].endswith("was at fault: use the new tests.")
 
 
-def test_half_the_strain_is_asked_for_with_the_size_that_it_should_halve(delayed):
-    ladder = replace(
-        delayed.ladder,
-        discrepancy={
-            Process("isotherm", "phase", 20.0): 3.0,
-            Process("isotherm", "modulus", 20.0): 2.0,
-            Process("isotherm", "phase", 0.0): 9.0,
-        },
-    )
-    left = instructions._unexplained(replace(delayed, ladder=ladder), 20.0)
-    modulus, phase = delayed.noise.sigma
-    assert left == f"{np.degrees(3.0 * phase):.1f} deg in the phase and {200.0 * modulus:.1f} % in |E*|"
-    asked = [
-        order_words.Open("linear", None, "20 degC", left, departure=departure("linear", isotherm=20.0)),
-        order_words.Open("linear", None, "0 degC", "other", departure=departure("linear", isotherm=0.0)),
-    ]
-    order = order_words.Order(
-        Sweep("a", 20.0, (10.0,), True, None, 1.0), ["a"], 1.0, 1.0, {0: (0, 1), 1: (0, 1)}
-    )
-    (why,) = order_words.reasons(order, asked, order_words.Context())
-    assert why.startswith(
-        f"What stays unexplained at 20 degC ({left}) should fall to about half if the mix is not linear. "
-    )
-
-
-def test_a_gain_too_small_to_matter_is_no_reason():
-    assert why("kept", "moving mass", "54 degC", (1.8**2, 1.9**2)) == []
-    (told,) = why("kept", "moving mass", "54 degC", (1.8**2, 2.4**2))
-    assert told.endswith("by 2.4 standard errors (now 1.8).")
-
-
 def test_a_sweep_that_was_asked_for_lowers_the_standard_error_as_promised(empty):
     """A bias of one isotherm: the sweep that says most of it is added to the table, which is diagnosed again."""
     found = empty
@@ -260,30 +219,6 @@ def _with(observed: Observations, specimen: str, temperature: float, frequencies
     )
 
 
-@pytest.mark.parametrize(
-    "specimens,t,f,half,again",
-    [
-        (["a", "b"], 10.0, (3.0, 40.0), False, " again"),
-        (["a", "b"], 10.0, (3.0, 40.0), True, ""),
-        (["a"], 10.0, (3.0, 50.0), False, ""),
-        (["a"], 12.0, (3.0,), False, ""),
-        ([METAL], 10.0, (3.0,), False, ""),
-    ],
-)
-def test_tests_that_were_made_are_ordered_again(specimens, t, f, half, again):
-    order = order_words.Order(Sweep(specimens[0], t, f, half, None, 1.0), specimens, 2.5, 1.0, {})
-    who = {1: f"specimen {specimens[0]}", 2: "specimens a and b"}[len(specimens)]
-    who = METAL if specimens == [METAL] else who
-    assert order_words.act(order, table(3)).startswith(f"test {who}{again}")
-
-
-def test_what_a_test_would_show_is_said_with_its_chance():
-    assert why("reach", "a phase offset of 1.5 deg", "", (4.0, 47.0)) == [
-        "If there is a phase offset of 1.5 deg, this test finds it with a chance of 100 %; without it the chance is "
-        "4 %."
-    ]
-
-
 def test_places_of_one_cause_are_told_together():
     helped = [
         (order_words.Open("reach", None, "a bias", candidate=Candidate(BIAS, t, (0.0,))), *strengths)
@@ -306,14 +241,6 @@ def test_metal_is_tested_at_two_frequencies_or_more(delayed):
     bands = [sweep.frequencies for sweep in model.sweeps if sweep.specimen == METAL]
     tested = delayed.observed.frequencies
     assert bands and all({tested[0], tested[-1]} <= set(band) for band in bands)
-
-
-def test_half_the_strain_is_asked_for_only_beside_the_usual_one():
-    whole = table(3)
-    gone = (whole.specimen == 2) & (whole.isotherm == whole.isotherms[-1])
-    model = possible(diagnose(whole.subset(~gone), draws=1000), Costs())
-    halves = {(sweep.specimen, sweep.temperature) for sweep in model.sweeps if sweep.half_strain}
-    assert ("c", whole.isotherms[-1]) not in halves and ("b", whole.isotherms[-1]) in halves
 
 
 def test_of_three_temperatures_the_last_order_is_a_fourth():
@@ -348,17 +275,6 @@ def test_gauges_are_checked_first_where_half_of_the_tests_exceed_a_limit():
     assert order["why"][0].startswith(f"{np.count_nonzero(uniform > 30.0)} of {whole.size} tests exceed")
     few = np.where(whole.specimen < 1, 40.0, 10.0)
     assert fixed_orders.gauges(replace(whole, quality={"deformation_uniformity_percent": few}), Costs()) == []
-
-
-def test_what_is_doubtful_is_tested_before_what_settles_more_per_hour():
-    observed = table(4)
-    odd = (observed.specimen == 1) & (observed.isotherm == 0)
-    delay = np.exp(2j * np.pi * 1e-3 * observed.frequency)
-    modulus = observed.modulus * np.where(odd, 1.3, 1.0) * delay
-    orders = instructions.instructions(diagnose(replace(observed, modulus=modulus), draws=1000))["orders"]
-    assert (orders[0]["specimens"], orders[0]["temperature_C"]) == (["b"], 0.0)
-    hourly = [one["nats"] / one["hours"] for one in orders]
-    assert hourly[0] < max(hourly)
 
 
 def test_of_one_specimen_the_first_order_is_a_second_one():
@@ -431,17 +347,6 @@ def test_of_sweeps_that_tell_the_same_the_first_is_taken_whatever_the_rounding(e
     assert order.specimens[0] == "a"
 
 
-def test_a_doubtful_test_waits_for_a_check_of_the_gauges():
-    asked = [repeated(25.0)]
-    order = order_words.Order(Sweep("a", 4.0, (25.0,), False, None, 1.0), ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
-    typed, machine = (
-        order_words.reasons(order, asked, context)[0]
-        for context in (order_words.Context(), order_words.Context(checked=True, typed=False))
-    )
-    assert "typing error" in typed and "gauges" not in typed
-    assert "typing error" not in machine and "Check gauges and mounting before." in machine
-
-
 def test_an_isotherm_off_its_target_is_tested_again_first():
     off = [{"specimen": name, "temperature_C": 20.0, "measured_C": 20.7} for name in "ac"]
     (order,) = fixed_orders.off_target(table(3), Costs(), off)
@@ -451,28 +356,6 @@ def test_an_isotherm_off_its_target_is_tested_again_first():
     (one,) = fixed_orders.off_target(table(3), Costs(), off[:1])
     assert one["purpose"] == "because it was measured 0.7 K off its target"
     assert fixed_orders.off_target(table(3), Costs(), []) == []
-
-
-def test_the_order_names_the_frequency_that_is_doubtful():
-    asked = [repeated(25.0), repeated(0.1)]
-    sweep = Sweep("a", 4.0, (0.1, 10.0, 25.0), False, None, 1.0)
-    order = order_words.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0), 1: (0.0, 1.0)})
-    assert order_words.purpose(order, asked) == (
-        "because the old result at 0.1 and 25 Hz contradicts the other frequencies"
-    )
-
-
-def test_a_copied_sweep_is_tested_again_because_it_is_a_copy():
-    asked = [
-        replace(one, departure=replace(one.departure, copied=True))
-        for one in (repeated(10.0), repeated(25.0))
-    ]
-    order = order_words.Order(
-        Sweep("a", 4.0, (10.0, 25.0), False, None, 1.0), ["a"], 1.0, 1.0, {0: (0.0, 1.0), 1: (0.0, 1.0)}
-    )
-    assert order_words.purpose(order, asked) == "because one of two equal sweeps is a copy"
-    (told,) = order_words.reasons(order, asked, order_words.Context())
-    assert "use the new tests in place of the old" in told
 
 
 def test_orders_know_the_copies(delayed):
@@ -488,21 +371,6 @@ def test_orders_know_the_copies(delayed):
     assert len(again) == 2 * rows[0].size and all(one.copied for one in again)
 
 
-def test_a_specimen_may_be_called_anything(delayed):
-    """Names that look like a temperature, a frequency or a list once ended in a traceback."""
-    observed = delayed.observed
-    names = ("Mix 21 degC", "10 Hz, phase", "21", "specimen at 4 degC")[: len(observed.names)]
-    odd = (observed.specimen == 1) & (observed.isotherm == 0)
-    bent = np.where(observed.isotherm == observed.isotherm[-1], observed.frequency**0.3, 1.0)
-    modulus = observed.modulus * np.where(odd, 1.3, 1.0) * bent
-    found = diagnose(replace(observed, names=names, modulus=modulus), draws=500)
-    assert found.ladder.discrepancy  # whose parts had such names
-    assert {one.specimen for one in found.ladder.discrepancy} == {None, *names}
-    assert instructions.instructions(found)["orders"]
-    assert spell_cause("loose_clamp @ 21") == "loose clamp of specimen 21"
-    assert spell_cause("temperature_bias @ 21.0") == "temperature bias at 21 degC"
-
-
 @pytest.mark.parametrize(
     ("test_type", "excess", "asked"),
     [("tension-compression", 1.5, 1), ("bending", 1.5, 0), ("tension-compression", 0.5, 0)],
@@ -516,3 +384,18 @@ def test_two_strains_are_asked_for_where_a_haversine_has_an_excess_phase(test_ty
         (at, [done.names[0]])
     ]
     assert all("25 and 75 microstrain" in order["act"] for order in orders)
+
+
+def test_a_specimen_may_be_called_anything(delayed):
+    """Names that look like a temperature, a frequency or a list once ended in a traceback."""
+    observed = delayed.observed
+    names = ("Mix 21 degC", "10 Hz, phase", "21", "specimen at 4 degC")[: len(observed.names)]
+    odd = (observed.specimen == 1) & (observed.isotherm == 0)
+    bent = np.where(observed.isotherm == observed.isotherm[-1], observed.frequency**0.3, 1.0)
+    modulus = observed.modulus * np.where(odd, 1.3, 1.0) * bent
+    found = diagnose(replace(observed, names=names, modulus=modulus), draws=500)
+    assert found.ladder.discrepancy  # whose parts had such names
+    assert {one.specimen for one in found.ladder.discrepancy} == {None, *names}
+    assert instructions.instructions(found)["orders"]
+    assert spell_cause("loose_clamp @ 21") == "loose clamp of specimen 21"
+    assert spell_cause("temperature_bias @ 21.0") == "temperature bias at 21 degC"

@@ -15,9 +15,7 @@ import asphalt_nscd as an
 from asphalt_nscd.cli.diagnose import command
 from asphalt_nscd.diagnosis.words.answer import Words
 from asphalt_nscd.diagnosis.written import three_digits
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.reporting.pages.diagnosis_page import PARAMETERS
-from asphalt_nscd.table_import.campaign import read_campaign
 
 pytestmark = pytest.mark.slow
 
@@ -106,22 +104,3 @@ def test_reported_values_are_the_same_in_json_table_workbook_and_curve(folder, c
     for name in ("E_MPa", "E_low_MPa", "E_high_MPa", "phase_deg", "phase_low_deg", "phase_high_deg"):
         assert said[name] == pytest.approx(table[name], rel=1e-9)
         assert said[name] == pytest.approx(row[head.index(name)], rel=1e-9)
-
-
-def test_an_unknown_law_is_refused():
-    with pytest.raises(InputError, match="law 'burger' is not known; give one of 2s2p1d, huet-sayegh"):
-        an.diagnose("data/tutorial/exports", known=an.Known(law="burger"))
-
-
-def test_no_semicolon_stands_in_corrected_csv(folder, content):
-    """A reader takes it for the mark between columns; reasons of doubtful tests are joined by them elsewhere."""
-    assert any(";" in reason for one in content["suspect_tests"] for reason in one["reasons"]) or any(
-        len(one["reasons"]) > 1 for one in content["suspect_tests"]
-    )
-    text = (folder / "corrected.csv").read_text()
-    assert ";" not in text
-    table = pd.read_csv(folder / "corrected.csv")
-    campaign, form = read_campaign([folder / "corrected.csv"], test_type="tension-compression")
-    used = table[table["status"] == "used"]
-    assert form == "moduli" and len(campaign.table.lines) == len(used) == content["tests"]
-    assert campaign.table.numbers("E_MPa") == pytest.approx(used["E_MPa"].to_numpy(), rel=1e-9)

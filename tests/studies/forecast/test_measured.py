@@ -8,7 +8,6 @@ import pytest
 from scipy.optimize import brentq
 from scipy.stats import f
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.recipe import read_recipe
 from asphalt_nscd.forecasting.rivals import hirsch
 from studies.forecast.mixes import best_map, compare, decades_slower, measured_map, overall, read_pairs
@@ -175,13 +174,3 @@ def test_pooled_scatter_is_that_of_specimens(tmp_path, recipe):
     assert errors[0].standard_error_percent == pytest.approx(error, rel=1e-9)
     off = (errors[0].forecast_percent - errors[0].measured_percent) / error
     assert errors[0].probability == pytest.approx(f.sf(off**2, 1, 7), rel=1e-9)
-
-
-def test_a_specimen_without_air_voids_is_named(tmp_path, recipe):
-    campaign(tmp_path, -6.0)
-    table = pd.read_csv(tmp_path / "volumetrics.csv")
-    table[~((table["mix"] == "M1 RH") & (table["specimen_id"] == "B"))].to_csv(
-        tmp_path / "volumetrics.csv", index=False
-    )
-    with pytest.raises(InputError, match="no row for specimen B of M1_RH"):
-        compare_voids(tmp_path, recipe)
