@@ -15,12 +15,10 @@ import click
 import numpy as np
 import pandas as pd
 import pytest
-from click.testing import CliRunner
 from forks import forked
 from matplotlib.figure import Figure
 
 from asphalt_nscd import cli
-from asphalt_nscd.cli import diagnose
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import save, write_table
 from asphalt_nscd.reporting.figures.save import save_figure
@@ -72,12 +70,6 @@ def test_help_imports_nothing_heavy():
         "heavy = {'numpy', 'pandas', 'scipy', 'numba', 'h5py', 'matplotlib'}; print(heavy & set(sys.modules))"
     )
     assert subprocess.run([sys.executable, "-c", script], capture_output=True, text=True).stdout == "set()\n"
-
-
-def test_the_machine_of_one_campaign_is_looked_for_by_compare():
-    done = CliRunner().invoke(diagnose.command, ["a.csv", "--same-machine", "--output", "x"])
-    assert done.exit_code == 2
-    assert "asphalt-nscd compare --same-machine FILE FILE" in done.output
 
 
 FULL = RuntimeError("Unable to flush cached information (errno = 28, error message = 'No space left')")

@@ -15,22 +15,6 @@ from asphalt_nscd.reporting.settings import Heading
 PAPER = "b_mm=25,B_mm=56,e_mm=25,h_mm=250,mass_kg=0.6,mobile_mass_kg=0.235"
 
 
-def _refuse_same_machine(context: click.Context, _: click.Parameter, wanted: bool) -> None:
-    if wanted:
-        raise click.UsageError(
-            "--same-machine needs several campaigns: asphalt-nscd compare --same-machine FILE FILE ... --output DIR",
-            context,
-        )
-
-
-@click.option(
-    "--same-machine",
-    is_flag=True,
-    hidden=True,
-    expose_value=False,
-    callback=_refuse_same_machine,
-    help="Of several campaigns: see compare.",
-)
 @step
 def command(
     measurements: tuple[Path, ...],

@@ -12,7 +12,6 @@ def command(
     recipe: Path,
     *,
     output: Path = option("Folder for forecast.csv, law.json and the page."),
-    packings: Path | None = option("Of older versions: nothing is poured any more.", None),
     page: bool = option("Whether to write forecast.html too.", True),
 ) -> None:
     """Forecast |E*| and phase of a mix from its binder and recipe, with no measurement of the mix.
@@ -27,7 +26,6 @@ def command(
       air_voids_percent: 7
       grading: {19: 100, 9.5: 85, 4.75: 60, 2.36: 42, 0.6: 20, 0.15: 8, 0.075: 5}
     """  # noqa: D301 - click wants the backspace itself
-    del packings
     from asphalt_nscd.forecasting.forecast import forecast
     from asphalt_nscd.forecasting.recipe import read_recipe
     from asphalt_nscd.forecasting.written import answer, points, write
