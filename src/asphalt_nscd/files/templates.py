@@ -35,7 +35,7 @@ def template(
         autoescape=name.endswith(".html"),
     )
     made.filters |= FILTERS | dict(filters or {})
-    return made.get_template(name, globals=variables)
+    return made.get_template(name, globals=dict(variables or {}))
 
 
 def items(text: str) -> list[str]:
