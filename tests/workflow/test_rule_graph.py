@@ -42,8 +42,3 @@ def test_each_box_stands_below_what_it_is_made_from():
         "figures and tables": 2,
     }
     assert len(set(where.values())) == len(where)
-
-
-def test_nothing_on_standard_input_is_one_sentence():
-    with pytest.raises(SystemExit, match="no arrows"):
-        edges_of("")

@@ -80,16 +80,6 @@ def test_a_study_does_not_wait_for_tools_which_are_added_when_asked_for(machine)
     assert (machine / "clone/.venv/.tools").exists()
 
 
-def test_python_can_be_chosen(machine):
-    install(machine, "python3.13", 13)
-    install(machine, "mine", 11)
-    assert set_up(machine, PYTHON="mine")[1][0] == "3.11: -m venv .venv"
-    install(machine, "old", 10)
-    done, notes = set_up(machine, PYTHON="old")
-    assert done.returncode == 2
-    assert done.stderr == "error: PYTHON=old is not a Python 3.11 or newer.\n"
-
-
 def test_without_ensurepip_the_pip_outside_installs(machine):
     install(machine, "python3", 11, ensurepip=False)
     done, notes = set_up(machine)

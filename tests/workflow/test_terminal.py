@@ -86,19 +86,6 @@ def test_a_failed_step_is_one_line_and_its_log(handler):
     ]
 
 
-def test_a_terminal_shows_how_far_it_is_and_what_runs_and_ends_empty(handler):
-    told, text = handler(terminal=True)
-    started(told)
-    told._live.refresh()
-    said = text.getvalue()
-    assert "1/9" in said and "left" in said and "Test sample s1" in said
-    tell(told, LogEvent.JOB_FINISHED, job_id=3)
-    assert told.steps.began == {}
-    tell(told, LogEvent.PROGRESS, done=9, total=9)
-    assert told._live is None
-    told.close()
-
-
 def test_a_plan_is_told_by_snakemake_itself(handler):
     told, text = handler(terminal=False, dryrun=True, printshellcmds=True, show_failed_logs=True)
     tell(told, None, "Building DAG of jobs...")

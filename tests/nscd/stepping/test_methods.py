@@ -13,7 +13,6 @@ from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedSteppe
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
 from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
-from asphalt_nscd.specimen.system import bending_system
 
 FREQUENCY, OMEGA = 40.0, 80 * np.pi
 AMPLITUDE, REST = 1e-7, 100  # m; steps under gravity alone
@@ -43,17 +42,6 @@ def deviations(found: complex, expected: complex) -> tuple[float, float]:
     return abs(abs(found / expected) - 1), abs(np.degrees(np.angle(found / expected)))
 
 
-@pytest.mark.parametrize("head", ["free", "blocked"])
-@pytest.mark.parametrize("method", ["condensed", "reduced"])
-def test_stepping_is_the_frequency_domain_of_its_scheme(beam, quick_law, method, head):
-    """To 1e-8 and 1e-6 deg, what is left of the transient."""
-    system = bending_system(beam, 0.35, 2.7e6, 0.7, head)
-    norm, phase = deviations(
-        stepped(system, quick_law, 5e-5, method, 5), of_the_scheme(system, quick_law, 5e-5)
-    )
-    assert norm < 1e-8 and phase < 1e-6
-
-
 @pytest.mark.parametrize("most", [1, harmonic.MOST_ITERATIONS])
 def test_frequency_domain_by_static_factors_or_by_those_of_the_frequency(beam_system, monkeypatch, most):
     """Few iterations do below resonance; where they do not, the whole matrix is factorised: one answer, to 1e-11."""
@@ -68,11 +56,3 @@ def test_frequency_domain_by_static_factors_or_by_those_of_the_frequency(beam_sy
     static = static_factor(beam_system, beam_system.weight)
     assert driving_force(beam_system, modulus, omega, static=static) == pytest.approx(expected, rel=1e-11)
     assert len(factorised) == (most == 1)
-
-
-def test_below_resonance_the_phase_is_that_of_the_law(beam_system):
-    """Quasi-static: force = E* times a stiffness that is purely geometric."""
-    modulus = 2e9 * np.exp(0.4j)
-    ratio = driving_force(beam_system, modulus, 1e-3) / modulus
-    assert ratio.imag == pytest.approx(0.0, abs=1e-9 * ratio.real)
-    assert ratio == pytest.approx(driving_force(beam_system, 1.0, 0.0), rel=1e-9)
