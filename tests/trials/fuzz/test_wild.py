@@ -39,7 +39,7 @@ def test_tables_are_as_wild_as_promised(tables):
     assert {"replicate", "order", "cycles", "amplitude_m"} <= set().union(*(table for table, _ in tables))
 
 
-@pytest.mark.parametrize("seed", [0, 3, 6, 16])  # of few tests: `make fuzz` tries a thousand
+@pytest.mark.parametrize("seed", [3, 16])  # of few tests: `make fuzz` tries a thousand
 def test_a_few_are_diagnosed_or_refused_in_one_sentence(seed):
     outcome = diagnoses.tried(seed)
     assert outcome.ended in ("diagnosed", "refused"), outcome
