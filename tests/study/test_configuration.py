@@ -14,7 +14,7 @@ from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.options import options_of
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.study.configuration import complete_study, label, refuse_repeated_keys
+from asphalt_nscd.study.configuration import RESERVED, complete_study, label, refuse_repeated_keys
 from asphalt_nscd.study.schema import SCHEMA, read_schema
 
 ROOT = Path(__file__).parents[2]
@@ -160,6 +160,12 @@ def test_every_mapping_of_the_schema_refuses_unknown_keys():
 )
 def test_bad_study_is_refused_in_one_sentence(config, change, names):
     refused({**config, **change}, *names)
+
+
+def test_no_study_has_the_name_of_other_results():
+    assert {path.name for path in (ROOT / "results/published").iterdir() if path.is_dir()} - {"paper"} < set(
+        RESERVED
+    )
 
 
 def test_key_that_stands_twice(tmp_path):

@@ -24,16 +24,9 @@ from asphalt_nscd.study.schema import read_schema
 # YAML 1.1 reads 5e-5 as text, and --config what stands in a list; where the schema wants a number it is one.
 _NUMBER = re.compile(r"[-+]?\d+(\.\d*)?([eE][-+]?\d+)?")
 # Folders of results/ that belong to no study.
-RESERVED = (
-    "benchmark",
-    "cluster",
-    "faults",
-    "forecast",
-    "fuzz",
-    "mapping",
-    "published",
-    "rigs",
-    "verification",
+RESERVED = tuple(
+    "attack benchmark calls cluster excess fall fatigue faults forecast fuzz intervals layouts mapping measured "
+    "mutants published ramp rigs verification".split()
 )
 POURED = ("seeds", "counts_table", "box_m")  # what pouring needs
 _OPTIONAL = ("sensitivity", "time_step_study", "packing_study", "audit")
