@@ -12,7 +12,7 @@ from test_diagnose import table as of_four
 from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
 from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate
-from asphalt_nscd.diagnosis.next_tests import fixed_orders
+from asphalt_nscd.diagnosis.next_tests import choice, fixed_orders
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, possible
 from asphalt_nscd.diagnosis.next_tests.information import Inquiry, Knowledge, Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep, noise_of
@@ -74,7 +74,8 @@ def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(dela
 def many_orders(delayed):
     """However little an order may tell."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(instructions, "LEAST", 1e-9)
+        patch.setattr(choice, "LEAST", 1e-9)
+        patch.setattr(choice, "MOST", 40)
         patch.setattr(instructions, "MOST", 40)
         return instructions.instructions(delayed)["orders"]
 
@@ -118,7 +119,7 @@ def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
 def why(kind, about, other, strengths, later=False, **then):
     """Reasons that an order at 20 degC gives for one question."""
     one = order_words.Open(kind, None, about, other, **then)
-    order = order_words.Order(Sweep("a", 20.0, (10.0,), False, None, 1.0), ["a"], 1.0, 1.0, {0: strengths})
+    order = choice.Order(Sweep("a", 20.0, (10.0,), False, None, 1.0), ["a"], 1.0, 1.0, {0: strengths})
     return order_words.reasons(order, [one], order_words.Context(later=later))
 
 
@@ -146,7 +147,7 @@ def test_a_test_at_another_temperature_repeats_nothing():
     asked = [repeated(25.0)]
     for temperature, reasons in ((4.0, 1), (-6.0, 0)):
         sweep = Sweep("a", temperature, (10.0, 25.0), False, None, 1.0)
-        order = order_words.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
+        order = choice.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
         assert len(order_words.reasons(order, asked, order_words.Context())) == reasons
 
 
@@ -343,7 +344,8 @@ def test_of_sweeps_that_tell_the_same_the_first_is_taken_whatever_the_rounding(e
     halved = next(one for one in model.sweeps if one.half_strain)
     alike = replace(model, sweeps=tuple(replace(halved, specimen=name) for name in ("a", "b")))
     monkeypatch.setattr(Inquiry, "gains", lambda *asked: gains(*asked) * np.array([[1.0], [1.0 + 1e-9]]))
-    (order, *_) = instructions.choose(alike, instructions.open_questions(empty, alike))
+    asked = instructions.open_questions(empty, alike)
+    (order, *_) = choice.choose(alike, [one.question for one in asked], [one.kind for one in asked])
     assert order.specimens[0] == "a"
 
 

@@ -150,12 +150,12 @@ class Inquiry:
     def __init__(self, linear: Linear, old: Tested, questions: Sequence[Question]) -> None:
         self.questions = questions
         kept = {one.kept.tobytes(): one.kept for one in questions}
-        self._known = {key: Knowledge(linear, [_some(old, rows)]) for key, rows in kept.items()}
+        self._known = {key: Knowledge(linear, [_counted(old, rows)]) for key, rows in kept.items()}
 
     def gains(self, tests: Sequence[Tested]) -> Matrix:
         """What each of M sets of tests would add to each of Q questions (M, Q) [nats]."""
         after = {
-            key: known.information + known.gained([_some(one, np.frombuffer(key, bool)) for one in tests])
+            key: known.information + known.gained([_counted(one, np.frombuffer(key, bool)) for one in tests])
             for key, known in self._known.items()
         }
         gained = [one.nats(after[one.kept.tobytes()]) - one.nats(self._fisher(one)) for one in self.questions]
@@ -172,12 +172,12 @@ class Inquiry:
     def take(self, tests: Tested) -> None:
         """Count these tests as done, for every question that they bear on."""
         for key, known in self._known.items():
-            kept = _some(tests, np.frombuffer(key, bool))
+            kept = _counted(tests, np.frombuffer(key, bool))
             if kept.rows.size:
                 self._known[key] = known.posterior(kept)
 
 
-def _some(tests: Tested, kept: NDArray[np.bool_]) -> Tested:
+def _counted(tests: Tested, kept: NDArray[np.bool_]) -> Tested:
     """Those of the tests that count."""
     if kept[tests.rows].all():
         return tests

@@ -69,7 +69,7 @@ class Sweep:
 
 def temperatures(observed: Observations) -> list[float]:
     """Isotherms tested (twelve at most), one between any two far apart, one beyond either end [degC], ascending."""
-    tested = _some(observed.isotherms, ISOTHERMS)
+    tested = _thinned(observed.isotherms, ISOTHERMS)
     middle = [round(float(a + b) / 2.0) for a, b in pairwise(tested) if b - a >= APART]
     ends = [round(float(tested[0] - BEYOND)), round(float(tested[-1] + BEYOND))]
     inside = [t for t in (*middle, *ends) if COLDEST <= t <= WARMEST]
@@ -78,13 +78,13 @@ def temperatures(observed: Observations) -> list[float]:
 
 def frequencies(observed: Observations) -> list[float]:
     """Frequencies tested (at most eight of them), and one below them [Hz], ascending."""
-    tested = _some(observed.frequencies, 8)
+    tested = _thinned(observed.frequencies, 8)
     # A third, to a digit that a machine can be set to; below 0.01 Hz twenty cycles take more than half an hour.
     lower = float(f"{tested[0] / 3.0:.1g}")
     return [*([lower] if lower >= 0.01 else []), *map(float, tested)]
 
 
-def _some(values: NDArray[np.float64], most: int) -> NDArray[np.float64]:
+def _thinned(values: NDArray[np.float64], most: int) -> NDArray[np.float64]:
     """At most so many of them, spread evenly, both ends among them."""
     return values[np.unique(np.linspace(0, values.size - 1, min(most, values.size)).round().astype(int))]
 
@@ -104,7 +104,7 @@ def every_test(observed: Observations, at: Sequence[float]) -> Observations:
     half = [  # beside the tests at the usual strain
         (s, t, f, HALF)
         for s in range(len(observed.names))
-        for t in _some(observed.isotherms, ISOTHERMS).tolist()
+        for t in _thinned(observed.isotherms, ISOTHERMS).tolist()
         for f in observed.frequencies
         if (s, t) in tested
     ]

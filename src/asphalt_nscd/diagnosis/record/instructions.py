@@ -3,15 +3,14 @@
 Open questions are: does a named cause show without the tests that carry it, and on a metal specimen; which of two
 causes that look alike; does a test that cannot be used repeat itself; is an isotherm that contradicts itself out of
 the linear range; is a cause there that these tests could not show. The expected gain of each is evidence for the right
-answer in nats (ln of the Bayes factor), no more than is needed. The sweep of largest gain per hour is taken, then the
-next, given the first.
+answer in nats (ln of the Bayes factor), no more than is needed. `next_tests.choice` takes the sweep of largest gain per
+hour, then the next, given the first.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
-from operator import attrgetter
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,21 +19,19 @@ from numpy.typing import NDArray
 from asphalt_nscd.diagnosis.criteria import CONFIDENCE, HIDES, SURVIVES, USUAL_THRESHOLD, Z_95
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
+from asphalt_nscd.diagnosis.next_tests.choice import MOST, choose
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, Possible, possible
-from asphalt_nscd.diagnosis.next_tests.information import Inquiry, Knowledge, Question
-from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Costs, Sweep
+from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Question
+from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Costs
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.record import rungs
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
-from asphalt_nscd.diagnosis.words.order_words import Context, Open, Order, act, purpose, reasons
+from asphalt_nscd.diagnosis.words.order_words import Context, Open, act, purpose, reasons
 from asphalt_nscd.diagnosis.words.sentences import article, size_left, typed
 from asphalt_nscd.diagnosis.written import cause_at, round_to_interval, shown, three_digits, widening
 from asphalt_nscd.files.words import joined, specimen_named
 
-MOST = 5
-ALIKE = 1e-6  # relative difference of gains that is rounding
-LEAST = 0.3  # nats, below which a sweep tells nothing
 FOUND = (USUAL_THRESHOLD + Z_95) ** 2  # strength of a cause that is found in 19 of 20 cases
 KEPT = (SURVIVES + Z_95) ** 2
 # With 2 ln of the Bayes factor scattering by 2 d about d^2: d^2 - 1.645 * 2 d = 6 at d^2 = 21.
@@ -55,63 +52,15 @@ def instructions(
     first = [*(ahead or []), *checks]
     first += [] if diagnosis.replicated else fixed_orders.second_specimen(done, costs)
     last = fixed_orders.order_temperatures(done, costs) if diagnosis.replicated else []
+    chosen = choose(model, [one.question for one in questions], [one.kind for one in questions])
     told = []
-    for k, one in enumerate(choose(model, questions)):
+    for k, one in enumerate(chosen):
         why = reasons(one, questions, Context(bool(k or first), bool(checks), not done.quality))
         at = [] if one.sweep.specimen == METAL else [one.sweep.temperature]
         tests, words = (one.specimens, at, list(one.sweep.frequencies)), (purpose(one, questions), why)
         order = fixed_orders.content(act(one, done), words, one.hours, tests, one.sweep.half_strain)
         told += [order | {"nats": round(one.nats, 2)}] * bool(why)
     return {"costs": costs.sentence, "orders": [*[*first, *told][: MOST - len(last)], *last]}
-
-
-def choose(model: Possible, questions: Sequence[Open]) -> list[Order]:
-    """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order."""
-    inquiry = Inquiry(model.linear, model.old, [one.question for one in questions])
-    orders: list[Order] = []
-    waiting = list(model.sweeps)
-    doubtful = [k for k, one in enumerate(questions) if one.kind in ("repeat", "level")]
-    while questions and waiting:
-        gains = inquiry.gains([sweep.tested for sweep in waiting])
-        totals = gains.sum(axis=1)
-        per_hour = np.where(totals > LEAST, totals / [sweep.hours for sweep in waiting], 0.0)
-        # What makes tests doubtful comes first: all else rests on them.
-        of_doubtful = gains[:, doubtful].sum(axis=1) > LEAST
-        score = np.where(of_doubtful.any() & ~of_doubtful, 0.0, per_hour)
-        # Specimens of the same tests tell the same to rounding, which differs between processors: the first is taken.
-        best = int(np.argmax(score >= (1.0 - ALIKE) * score.max()))
-        sweep, gain, nats = waiting.pop(best), gains[best], float(totals[best])
-        alike = next((one for one in orders if _same(one.sweep, sweep)), None)
-        if per_hour[best] == 0.0 or (alike is None and len(orders) == MOST):
-            break
-        before = inquiry.strengths()
-        inquiry.take(sweep.tested)
-        after = inquiry.strengths()
-        least = [0.05 if one.kind == "metal" else max(0.1 * nats, 0.05) for one in questions]
-        helped = [int(k) for k in np.argsort(-gain) if gain[k] >= least[k]]
-        if alike is None:
-            alike = Order(sweep, [], 0.0, 0.0, {})
-            orders.append(alike)
-        tested = (*alike.specimens, sweep.specimen)
-        alike.specimens = [name for name in model.table.names if name in tested] or [METAL]
-        waiting = [other for other in waiting if not _again(other, sweep)]
-        alike.hours, alike.nats = alike.hours + sweep.hours, alike.nats + nats
-        for k in helped:
-            alike.helps[k] = alike.helps.get(k, (before[k], 0.0))[0], after[k]
-    return orders
-
-
-def _same(one: Sweep, other: Sweep) -> bool:
-    conditions = attrgetter("temperature", "frequencies", "half_strain")
-    return conditions(one) == conditions(other) and METAL not in (one.specimen, other.specimen)
-
-
-def _again(one: Sweep, other: Sweep) -> bool:
-    """Whether a sweep repeats tests of another; once metal is mounted, one sweep is all that it has to say."""
-    if METAL in (one.specimen, other.specimen):
-        return one.specimen == other.specimen
-    conditions = attrgetter("specimen", "temperature", "half_strain")
-    return conditions(one) == conditions(other) and not {*one.frequencies}.isdisjoint(other.frequencies)
 
 
 def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:

@@ -15,10 +15,11 @@ from asphalt_nscd.diagnosis.causes._cause import Place
 from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
 from asphalt_nscd.diagnosis.criteria import USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.model.joint import Candidate
+from asphalt_nscd.diagnosis.next_tests.choice import Order
 from asphalt_nscd.diagnosis.next_tests.fixed_orders import named
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
 from asphalt_nscd.diagnosis.next_tests.information import Question
-from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Sweep
+from asphalt_nscd.diagnosis.next_tests.sweeps import METAL
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.words import sentences
 from asphalt_nscd.diagnosis.words.sentences import article, numbers
@@ -71,17 +72,6 @@ class Open:
     def place(self) -> Place:
         """Where the cause sits that it is about."""
         return None if self.candidate is None else self.candidate.place
-
-
-@dataclass
-class Order:
-    """One order to the laboratory: hours, gain [nats], and the strength before and after of each question helped."""
-
-    sweep: Sweep
-    specimens: list[str]
-    hours: float
-    nats: float
-    helps: dict[int, tuple[float, float]]
 
 
 @dataclass(frozen=True)
