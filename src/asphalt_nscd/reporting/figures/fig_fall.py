@@ -10,18 +10,11 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.tables import only_file
-from asphalt_nscd.reporting.figures import style
-from asphalt_nscd.reporting.figures.spheres import View, picture
+from asphalt_nscd.reporting.figures import panels, style
+from asphalt_nscd.reporting.figures.spheres import side_view
 
 SHOWN = 4  # instants: the start, the first impact, most of the motion gone, the end
-VIEW = View(azimuth=0.0, elevation=0.0)
-PER_MM = 8.0  # pixels
-PARTS = {  # of the account, and how they are drawn
-    "kinetic": (style.BLUE, "-"),
-    "impact": (style.ORANGE, "-"),
-    "friction": (style.INK, "-"),
-    "numerical": (style.GREY, "--"),
-}
+PARTS = ("kinetic", "impact", "friction", "numerical")  # of the account
 
 
 @style.journal
@@ -39,16 +32,12 @@ def draw(fall: list[Path]) -> Figure:
     limits = 1e3 * (every[..., 0] - radius).min(), 1e3 * (every[..., 0] + radius).max()
     for panel, k, name in zip(axes, shown, "abcd", strict=False):
         colour = colours[arrays["frames/fragment"][k] % len(colours)]
-        image, extent = picture(every[k], radius, colour, VIEW, 1e3 * PER_MM)
-        panel.imshow(image, extent=tuple(1e3 * side for side in extent), interpolation="none")
+        side_view(panel, every[k], radius, colour)
         panel.axhline(0.0, color=style.GREY, lw=1.0)
         panel.set(xlim=limits, ylim=(-2.0, 1e3 * (every[0, :, 2] + radius).max()), aspect="equal")
-        panel.set_axis_off()
         style.letter(panel, name, f"{1e3 * time[k]:.0f} ms")
     free = -arrays["load_J"][-1]
-    for name, (colour, dash) in PARTS.items():
-        axes[-1].plot(1e3 * time, 100.0 * arrays[f"{name}_J"] / free, color=colour, ls=dash, label=name)
+    panels.account(axes[-1], 1e3 * time, {name: 100.0 * arrays[f"{name}_J"] / free for name in PARTS})
     axes[-1].set(xlabel="time (ms)", ylabel="share of the energy (%)")
-    axes[-1].legend()
     style.letter(axes[-1], "e", "its energy")
     return figure

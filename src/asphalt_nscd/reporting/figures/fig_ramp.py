@@ -9,17 +9,10 @@ from matplotlib.figure import Figure
 
 from asphalt_nscd.bending.ramp import RAMP
 from asphalt_nscd.files.store import load
-from asphalt_nscd.reporting.figures import style
-from asphalt_nscd.reporting.figures.spheres import View, picture
+from asphalt_nscd.reporting.figures import panels, style
+from asphalt_nscd.reporting.figures.spheres import side_view
 
-VIEW = View(azimuth=0.0, elevation=0.0)
-PER_MM = 8.0  # pixels
-PARTS = {  # of the account, and how they are drawn
-    "springs": (style.BLUE, "-"),
-    "fracture": (style.ORANGE, "-"),
-    "dashpots": (style.INK, "-"),
-    "numerical": (style.GREY, "--"),
-}
+PARTS = ("springs", "fracture", "dashpots", "numerical")  # of the account
 
 
 @style.journal
@@ -34,20 +27,17 @@ def draw(ramp: list[Path]) -> Figure:
         curve.plot(moved, arrays["force_N"], color=colour, ls=dash, label=f"{moved.size} steps")
         bonds.step(moved, arrays["broken_bonds"], where="post", color=colour, ls=dash)
     first = runs[0]
-    for name, (colour, dash) in PARTS.items():
-        energy = 1e3 * first[f"energy_{name}_J"]
-        work.plot(1e6 * first["displacement_m"], energy, color=colour, ls=dash, label=name)
+    panels.account(
+        work, 1e6 * first["displacement_m"], {name: 1e3 * first[f"energy_{name}_J"] for name in PARTS}
+    )
     for axes, label in ((curve, "force (N)"), (bonds, "broken bonds"), (work, "energy (mJ)")):
         axes.set(xlabel="displacement (µm)", ylabel=label)
     curve.legend()
-    work.legend()
-    position, radius = first["frames/position_m"], first["frames/radius_m"]
-    image, extent = picture(position, radius, np.full((radius.size, 3), 0.85), VIEW, 1e3 * PER_MM)
-    place.imshow(image, extent=tuple(1e3 * side for side in extent), interpolation="none")
+    radius = first["frames/radius_m"]
+    side_view(place, first["frames/position_m"], radius, np.full((radius.size, 3), 0.85))
     broken = 1e3 * first["frames/point_m"][first["broken"]]
     place.plot(broken[:, 0], broken[:, 2], ".", ms=1.5, color=style.ORANGE)
     place.set_aspect("equal")
-    place.set_axis_off()
     for axes, letter, words in zip(
         (curve, bonds, work, place), "abcd", ("force", "bonds", "work", "breaks"), strict=True
     ):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import matplotlib
@@ -44,6 +44,14 @@ def line(
     if low in rows:
         axes.fill_between(rows[x], scale * rows[low], scale * rows[high], color=colour, alpha=0.18, lw=0.0)
     axes.plot(rows[x], scale * rows[middle], color=colour, **{"lw": 1.0, "zorder": 2} | look)
+
+
+def account(axes: Axes, x: np.ndarray, energies: Mapping[str, np.ndarray]) -> None:
+    """Draw four parts of an account of energy over `x`; the last, what the scheme takes, dashed."""
+    looks = ((style.BLUE, "-"), (style.ORANGE, "-"), (style.INK, "-"), (style.GREY, "--"))
+    for (name, energy), (colour, dash) in zip(energies.items(), looks, strict=True):
+        axes.plot(x, energy, color=colour, ls=dash, label=name)
+    axes.legend()
 
 
 def quantity_axis(axes: Axes, quantity: str) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from matplotlib.axes import Axes
 from numpy.typing import NDArray
 from scipy.ndimage import uniform_filter
 
@@ -12,6 +13,7 @@ OVERSAMPLING = 2  # per direction, averaged away at the end
 LIGHT = np.array([-0.45, 0.62, 0.64])  # right, up, towards the viewer; a unit vector within rounding
 AMBIENT = 0.42
 CREVICES = 0.55  # how strongly places below their surroundings are darkened
+PER_MM = 8.0  # pixels of a view from the side
 SURROUNDINGS = 1.5  # mean radii over which surroundings are averaged
 
 
@@ -63,6 +65,13 @@ def picture(
     left, bottom = low - 1.0 / resolution
     # imshow draws the first row on top.
     return image[::-1], (left, left + size[0] / scale, bottom, bottom + size[1] / scale)
+
+
+def side_view(axes: Axes, position: np.ndarray, radius: np.ndarray, colour: np.ndarray) -> None:
+    """Draw spheres (n, 3), (n,) [m] of colours (n, 3) as seen along y, in mm."""
+    image, extent = picture(position, radius, colour, View(azimuth=0.0, elevation=0.0), 1e3 * PER_MM)
+    axes.imshow(image, extent=tuple(1e3 * side for side in extent), interpolation="none")
+    axes.set_axis_off()
 
 
 def _splat(
