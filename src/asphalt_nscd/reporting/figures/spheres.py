@@ -70,7 +70,8 @@ def picture(
 def side_view(axes: Axes, position: np.ndarray, radius: np.ndarray, colour: np.ndarray) -> None:
     """Draw spheres (n, 3), (n,) [m] of colours (n, 3) as seen along y, in mm."""
     image, extent = picture(position, radius, colour, View(azimuth=0.0, elevation=0.0), 1e3 * PER_MM)
-    axes.imshow(image, extent=tuple(1e3 * side for side in extent), interpolation="none")
+    left, right, bottom, top = (1e3 * side for side in extent)
+    axes.imshow(image, extent=(left, right, bottom, top), interpolation="none")
     axes.set_axis_off()
 
 
