@@ -46,6 +46,11 @@ def mixes(tmp_path_factory):
     return [folder / f"{name}.csv" for name in GLASSY]
 
 
+@pytest.fixture(scope="module")
+def made(mixes):
+    return an.compare(mixes, measured_in="tension-compression", draws=an.Draws(500))
+
+
 def test_mixes_are_ranked_with_what_the_tests_leave_open(mixes, tmp_path):
     arguments = [
         *map(str, mixes),
@@ -69,7 +74,7 @@ def test_mixes_are_ranked_with_what_the_tests_leave_open(mixes, tmp_path):
     assert any(line.endswith("would mostly stay unseen.") for line in lines)
     assert pd.read_csv(tmp_path / "machine.csv").empty
     book = openpyxl.load_workbook(tmp_path / "comparison.xlsx")
-    assert book.sheetnames == ["Ranking", "Curves at 15 degC", "Machine"]
+    assert book.sheetnames == ["Ranking", "Conditions", "Differences", "Curves at 15 degC", "Machine"]
     header, first, *_ = book["Ranking"].iter_rows(values_only=True)
     row = dict(zip(header, first))
     true = abs(modulus(GLASSY["stiff <b>"], 10.0, 15.0)) * 1e-6
@@ -80,7 +85,18 @@ def test_mixes_are_ranked_with_what_the_tests_leave_open(mixes, tmp_path):
     svg = page[page.index("<svg") : page.index("</svg>") + 6]
     assert ElementTree.fromstring(svg).tag.endswith("svg")
     for name in GLASSY:
-        assert (tmp_path / name / "diagnosis.html").is_file()
+        names = {path.name for path in (tmp_path / name).iterdir()}
+        assert names > {"diagnosis.html", "report.pdf", "corrected.xlsx", "corrected.csv", "law.json"}
+
+
+def test_differences_hold_the_truth_and_stand_only_where_both_were_tested(made):
+    table = made.differences
+    assert set(table["temperature_C"]) == {15.0, 20.0}  # the warmest tests are at 35 degC
+    for row in table.itertuples():
+        true = abs(modulus(GLASSY[row.mix], row.frequency_Hz, row.temperature_C))
+        true = 100.0 * (true / abs(modulus(GLASSY[row.than], row.frequency_Hz, row.temperature_C)) - 1.0)
+        assert row.stiffer_low_percent < true < row.stiffer_high_percent
+        assert row.told_apart == (row.mix == "stiff <b>")
 
 
 def test_a_possible_cause_is_not_shown_as_a_certain_one(tmp_path):
@@ -101,6 +117,7 @@ def test_a_possible_cause_is_not_shown_as_a_certain_one(tmp_path):
         content={
             "ladder": ladder,
             "reported": reported,
+            "reading": {"test_type": "bending"},
             "tests": 24,
             "trust": {"check": 6, "not_used": 1},
         },
@@ -113,12 +130,16 @@ def test_a_possible_cause_is_not_shown_as_a_certain_one(tmp_path):
     curve = pd.DataFrame(
         {"mix": ["mix", "mix"], **{name: [value, 1.1 * value] for name, value in reported.items()}}
     )
-    write_page(tmp_path / "page.html", table, curve)
+    both = curve.assign(asked_for="stiffness").iloc[:1]
+    apart = {"mix": "mix", "than": "other", "stiffer_percent": 12.0, "stiffer_low_percent": -3.0}
+    apart |= {"temperature_C": 15.0, "frequency_Hz": 10.0, "stiffer_high_percent": 29.0, "told_apart": False}
+    write_page(tmp_path / "page.html", table, curve, (both, pd.DataFrame([apart])))
     page = (tmp_path / "page.html").read_text()
     assert (
         "<td>channel delay</td><td>temperature bias at 40 °C (68 %)</td>" in page
         and "The machine" not in page
     )
+    assert "<td>mix over other</td><td>+12 % (\N{MINUS SIGN}3 to +29)</td>" in page
 
 
 def test_what_is_no_comparison_is_refused(mixes, tmp_path):

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
+from itertools import combinations
 from pathlib import Path
 
 import numpy as np
@@ -16,13 +18,16 @@ from asphalt_nscd.diagnosis.criteria import CONFIDENCE
 from asphalt_nscd.diagnosis.machine.common_faults import Pooled
 from asphalt_nscd.diagnosis.machine.pooled import pool
 from asphalt_nscd.diagnosis.observed.copies import refuse_copied_campaign
-from asphalt_nscd.diagnosis.record.reported import EN_12697_26, master_curve
+from asphalt_nscd.diagnosis.record.mixture import Mixture
+from asphalt_nscd.diagnosis.record.reported import EN_12697_26, master_curve, mix_modulus, table_of, tested
 from asphalt_nscd.diagnosis.settings import Draws, Known
 from asphalt_nscd.diagnosis.words import sentences
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_table
 
 DRAWS = 20_000  # of the moduli, for the ranks
+# What a client asks at which temperature [degC], at the frequency of EN 12697-26.
+ASKED = {15.0: "stiffness, EN 12697-26", 20.0: "fatigue", 40.0: "rutting", 50.0: "rutting"}
 Progress = Callable[[str, float, float], None]
 
 
@@ -74,8 +79,9 @@ class Comparison:
         -------
         DataFrame
             One row for each mix, the stiffest first: |E*| [MPa] and phase [degrees] of the mix, certain causes
-            taken off and possible ones by their probability, with 95 % intervals; verdict; causes that are
-            certain; possible ones with their probability; tests, those to check first, those left out.
+            taken off and possible ones by their probability, with 95 % intervals; test that gave it; verdict;
+            causes that are certain; possible ones with their probability; tests, those to check first, those left
+            out.
             rank_low, rank_high: 95 % interval of the rank, from what the moduli leave open.
         """
         rows = []
@@ -90,6 +96,7 @@ class Comparison:
             rows.append(
                 {
                     "mix": name,
+                    "test": content["reading"]["test_type"],
                     **content["reported"],
                     "verdict": diagnosis.verdict,
                     "causes": ", ".join(sentences.cause_words(rung) for rung in named if rung["established"]),
@@ -114,18 +121,51 @@ class Comparison:
         DataFrame
             One row for each mix and frequency, with 95 % intervals.
         """
+        return self._of_each(lambda mix: master_curve(mix, EN_12697_26[0]))
+
+    @property
+    def conditions(self) -> pd.DataFrame:
+        """E* of each mix at the temperatures that clients ask for, where its tests reach.
+
+        Returns
+        -------
+        DataFrame
+            One row for each mix and condition, with 95 % intervals; asked_for says for what.
+        """
+        return self._of_each(_asked)
+
+    @property
+    def differences(self) -> pd.DataFrame:
+        """By how much one mix is stiffer than another, where the tests of both reach.
+
+        Returns
+        -------
+        DataFrame
+            One row for each condition and pair of mixes, the stiffer at 15 degC first: |E*| of `mix` over that of
+            `than` less one [%] with its 95 % interval, and whether zero lies outside it.
+        """
+        order, rows = list(self.table["mix"]), []
+        for (at, hertz), own in self.conditions.groupby(["temperature_C", "frequency_Hz"]):
+            own = own.set_index("mix")
+            half = np.log(own["E_high_MPa"] / own["E_low_MPa"]) / 2.0
+            for mix, than in combinations([name for name in order if name in own.index], 2):
+                ratio = float(np.log(own["E_MPa"][mix] / own["E_MPa"][than]))
+                off = float(np.hypot(half[mix], half[than]))
+                ends = 100.0 * np.expm1([ratio, ratio - off, ratio + off])
+                rows.append((at, hertz, mix, than, *ends, abs(ratio) > off))
+        parts = [f"stiffer{end}_percent" for end in ("", "_low", "_high")]
+        names = ["temperature_C", "frequency_Hz", "mix", "than", *parts, "told_apart"]
+        return pd.DataFrame(rows, columns=names)
+
+    def _of_each(self, make: Callable[[Mixture], pd.DataFrame]) -> pd.DataFrame:
+        """What is made of each mix, its name first; of a diagnosis read from files nothing can be."""
         made = {name: one.outcome.mix for name, one in self.diagnoses.items()}
-        parts = [
-            master_curve(one, EN_12697_26[0]).assign(mix=name)
-            # A diagnosis read from files has left nothing to draw a curve from.
-            for name, one in made.items()
-            if one is not None
-        ]
+        parts = [make(one).assign(mix=name) for name, one in made.items() if one is not None]
         whole = pd.concat(parts, ignore_index=True)
         return whole[["mix", *(column for column in whole if column != "mix")]]
 
     def write(self, folder: str | Path, machine: Pooled | None = None) -> list[str]:
-        """Write comparison.html and comparison.xlsx, and the files of each diagnosis into a folder of its own.
+        """Write comparison.html and comparison.xlsx, and all that `diagnose` writes into a folder for each mix.
 
         Parameters
         ----------
@@ -139,21 +179,34 @@ class Comparison:
         list of str
             Names of the files of the comparison.
         """
+        from asphalt_nscd.api.written import write_all
         from asphalt_nscd.exports.formats.xlsx import write_sheets
-        from asphalt_nscd.reporting.pages import comparison, diagnosis_page
+        from asphalt_nscd.reporting.pages import comparison
+        from asphalt_nscd.reporting.settings import Heading
 
         folder, table, curves = Path(folder), self.table, self.curves
         for name, diagnosis in self.diagnoses.items():
-            diagnosis.outcome.write(folder / name)
-            diagnosis_page.write_page(folder / name, f"Diagnosis of {name}")
-        sheets = {"Ranking": table, "Curves at 15 degC": curves}
+            own = folder / comparison.folder_of(name)
+            write_all(diagnosis.outcome, own, f"Diagnosis of {name}", Heading(mix=name))
+        conditions, differences = self.conditions, self.differences
+        sheets = {"Ranking": table, "Conditions": conditions, "Differences": differences}
+        sheets["Curves at 15 degC"] = curves
         if machine is not None:
             write_table(folder / "machine.csv", machine.table)
             sheets["Machine"] = machine.table
         write_sheets(folder / "comparison.xlsx", sheets)
         said = "" if machine is None else str(machine)
-        comparison.write_page(folder / comparison.PAGE, table, curves, said)
+        comparison.write_page(folder / comparison.PAGE, table, curves, (conditions, differences), said)
         return [comparison.PAGE, "comparison.xlsx", *(["machine.csv"] if machine is not None else [])]
+
+
+def _asked(mix: Mixture) -> pd.DataFrame:
+    """E* of a mix at the conditions of ASKED that its tests reach."""
+    temperature = np.array(list(ASKED))
+    frequency = np.full(temperature.size, EN_12697_26[1])
+    there = tested(mix, temperature, frequency)
+    at = temperature[there], frequency[there]
+    return table_of(*at, mix_modulus(mix, *at)).assign(asked_for=[ASKED[t] for t in at[0]])
 
 
 def _ranks(table: pd.DataFrame) -> tuple[list[int], list[int]]:
@@ -191,7 +244,7 @@ def compare(
     draws : Draws
         Of the chance level, as in `diagnose`.
     progress : callable
-        progress(stage, done, total), called after each mix.
+        progress(stage, done, total), called as the mixes are diagnosed.
 
     Returns
     -------
@@ -212,14 +265,21 @@ def compare(
     paths = _named(mixes)
     found: dict[str, Diagnosis] = {}
     for n, (name, path) in enumerate(paths.items()):
+        within = partial(_part_of, progress, n, len(paths))
         try:
-            found[name] = diagnose(path, measured_in=measured_in, known=Known(law=law), draws=draws)
+            found[name] = diagnose(
+                path, measured_in=measured_in, known=Known(law=law), draws=draws, progress=within
+            )
         except InputError as error:
             raise InputError(f"mix {name}: {error}") from None
         made = {mix: one.outcome.diagnosis for mix, one in found.items()}
         refuse_copied_campaign({mix: one.whole or one.observed for mix, one in made.items() if one})
-        progress("Compare", n + 1, len(paths))
     return Comparison(found)
+
+
+def _part_of(progress: Progress, mixes: int, total: int, _: str, done: float, steps: float) -> None:
+    """Tell the progress of one diagnosis as a part of all."""
+    progress("Compare", mixes + done / steps, total)
 
 
 def _named(mixes: Mapping[str, Measurements] | Sequence[str | Path]) -> dict[str, Measurements]:

@@ -84,11 +84,10 @@ def command(
         )
         if verify_limits:
             diagnosis = diagnosis.verify_limits(jobs, progress)
-    names = diagnosis.outcome.write(output)
     if page:
-        names.append(_data.part("exports.formats", "xlsx").corrected_workbook(output).name)
-        names.append(_data.part("reporting.pages", "handout").write_handout(output, title, heading).name)
-        names.append(_data.part("reporting.pages", "diagnosis_page").write_page(output, title).name)
+        names = _data.part("api", "written").write_all(diagnosis.outcome, output, title, heading)
+    else:
+        names = diagnosis.outcome.write(output)
     click.echo(f"{diagnosis.details if details else diagnosis}\n\nWritten to {output}: {', '.join(names)}.")
     if page:
         click.echo(f"For the reasons and figures, open {output / names[-1]} in a browser.")

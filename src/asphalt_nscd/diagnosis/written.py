@@ -98,7 +98,7 @@ def conditions(residuals: pd.DataFrame, scatter: Mapping[str, Any]) -> pd.DataFr
 
 
 def mean_averages(gain: Mapping[str, Any], inner: bool = False) -> dict[str, dict[str, float]]:
-    """Errors of |E*| and phase before and after [%], as in Table 4, in the mean over the temperatures of a rung.
+    """Errors of |E*| and phase before and after [%], as in Table 4, and of the phase [deg], mean over temperatures.
 
     `inner` leaves out the coldest and the warmest, unless they are all: an end that is left out of a fit is
     extrapolated.
@@ -107,7 +107,7 @@ def mean_averages(gain: Mapping[str, Any], inner: bool = False) -> dict[str, dic
     there = [gain["averages_by_temperature"][t] for t in ((inner and at[1:-1]) or at)]
     return {
         name: {when: sum(errors[name][when] for errors in there) / len(there) for when in BEFORE_AFTER}
-        for name in ("mre_E_percent", "mre_phase_percent")
+        for name in ("mre_E_percent", "mre_phase_percent", "off_phase_deg")
     }
 
 

@@ -27,7 +27,6 @@ Complex = NDArray[np.complex128]
 
 ONE_TEMPERATURE = {"burgers": "Burgers", "kelvin_chain": "Kelvin chain"}
 LAW_OF_DIAGNOSIS = "law.json"
-LOOSE = 0.5  # standard error over value, from which a parameter is hardly determined
 # Where neither the file nor the user says what was tested.
 USUAL_TEMPERATURES = (-10.0, 0.0, 10.0, 20.0, 30.0, 40.0)  # degC
 USUAL_FREQUENCIES = (0.1, 1.0, 10.0, 40.0)  # Hz
@@ -55,7 +54,8 @@ class ExportedLaw:
     `kind` is "burgers", "kelvin_chain" or one of LAWS; `temperature` in degC is the only one, or the reference of the
     shift; `shift` is None for a law of one temperature; `band` is where it was tested; `parameters` (with `std_error`
     of some, and 95 % `intervals`) have the keys of the file, which carry the units; `rms_log_residual` is that of the
-    fit to tests; `unseen` are parameters that the tests do not determine at all.
+    fit to tests; `unseen` are parameters that the tests do not determine at all. `misses` are the errors that the
+    diagnosis beside the file tells.
     """
 
     path: Path
@@ -71,6 +71,7 @@ class ExportedLaw:
     unseen: tuple[str, ...] = ()
     uncertainty: Uncertainty | None = None
     intervals: Mapping[str, Sequence[float]] = field(default_factory=dict)
+    misses: Mapping[str, float] | None = None
 
     @property
     def name(self) -> str:
@@ -81,14 +82,9 @@ class ExportedLaw:
 
     def loose(self) -> str:
         """A sentence on parameters that the tests do not determine; empty where there are none."""
-        found = [
-            key
-            for key, value in self.parameters.items()
-            if key in self.unseen or self.std_error.get(key, 0.0) > LOOSE * abs(value)
-        ]
-        if not found:
+        if not self.unseen:
             return ""
-        return f"The tests hardly determine {', '.join(found)}: do not trust the law beyond them."
+        return f"The tests do not determine {', '.join(self.unseen)}: do not trust the law beyond them."
 
     def reference_modulus(self, omega: Vector) -> Complex:
         """E* (n,) [Pa] at `temperature` and angular frequencies `omega` (n,) [rad/s]."""
@@ -214,7 +210,17 @@ def law_of(
         tuple(str(name) for name in content.get("unseen") or ()),
         uncertainty_of(path, content, law) if kind in LAWS else None,
         content.get("interval_95") or {},
+        _misses(path),
     )
+
+
+def _misses(path: Path) -> Mapping[str, float] | None:
+    """Errors of a law.json, as the diagnosis beside it has them; of an older one, none."""
+    beside = path.with_name("diagnosis.json")
+    if path.name != LAW_OF_DIAGNOSIS or not is_file(beside):
+        return None
+    misses = read_json(beside).get("law_misses") or {}
+    return misses if "off_phase_deg" in misses else None
 
 
 def _numbers(content: Any) -> dict[str, float]:

@@ -229,11 +229,10 @@ def _shorten_paths(text: str, paths: Sequence[Path]) -> str:
 def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: Any) -> dict[str, Any]:
     """Diagnose, and write everything into the folder: what the first screen says, and the names of the files."""
     from asphalt_nscd.api.diagnosis import diagnose
+    from asphalt_nscd.api.written import write_all
     from asphalt_nscd.diagnosis.record.stiffness_only import fit_stiffness, has_no_phase
     from asphalt_nscd.diagnosis.settings import Known
-    from asphalt_nscd.exports.formats.xlsx import corrected_workbook
     from asphalt_nscd.reporting.pages import diagnosis_page, stiffness_page
-    from asphalt_nscd.reporting.pages.handout import write_handout
     from asphalt_nscd.reporting.settings import Heading
 
     title = f"Diagnosis of {', '.join(path.name for path in paths)}"
@@ -249,11 +248,8 @@ def _diagnosed(paths: Sequence[Path], choices: Choices, output: Path, progress: 
         known=Known(law=choices.law),
         progress=lambda stage, done, total: progress(stage, 0.9 * done / total),
     )
-    diagnosis.outcome.write(output)
     progress("Write", 0.95)
-    corrected_workbook(output)
-    write_handout(output, title, Heading(**choices.heading))
-    diagnosis_page.write_page(output, title)
+    write_all(diagnosis.outcome, output, title, Heading(**choices.heading))
     _export(output)
     reported = diagnosis.content["reported"]
     return {"reported": reported, "page": diagnosis_page.PAGE, "files": _names(output)}

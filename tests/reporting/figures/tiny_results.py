@@ -189,7 +189,8 @@ class Results:
             "mre_phase_percent": pair,
             "rms_over_scatter": pair,
             "averages_by_temperature": {
-                at: {"mre_E_percent": pair, "mre_phase_percent": pair} for at in ("0", "20")
+                at: {"mre_E_percent": pair, "mre_phase_percent": pair, "off_phase_deg": pair}
+                for at in ("0", "20")
             },
         }
         rung = {"where": None, "p_value": 1e-9, "as_good": [], "sentence": "s", "confirmed_by": "c"}

@@ -60,19 +60,19 @@ def test_points_lie_where_their_values_are_and_hollow_ones_are_suspect(results):
 
 
 def test_the_law_and_its_band_stand_among_the_tests_on_frequency_times_shift_factor(results, tmp_path):
-    frequency = np.geomspace(0.1, 2000.0, 20)
-    curve = {"temperature_C": 20.0, "frequency_Hz": frequency, "law_E_MPa": 1e3, "law_E_low_MPa": 900.0}
-    curve |= {
-        "law_E_high_MPa": 1100.0,
-        "law_phase_deg": 20.0,
-        "law_phase_low_deg": 19.0,
-        "law_phase_high_deg": 21.0,
-    }
+    values = {"E_MPa": 1e3, "phase_deg": 20.0}
+    curve = {"temperature_C": 20.0, "frequency_Hz": np.geomspace(0.1, 2000.0, 20)}
+    for name, value in values.items():
+        stem, unit = name.split("_")
+        curve |= {name: value, f"{stem}_low_{unit}": 0.9 * value, f"{stem}_high_{unit}": 1.1 * value}
+        curve[f"law_{name}"] = 0.5 * value
     write_table(tmp_path / "curve.csv", pd.DataFrame(curve))
     chart = charts(**results.diagnosis(), causality=results.causality(), curve=[tmp_path / "curve.csv"])[
         "law"
     ]
-    assert chart.title == "Master curve" and all("FillBetween" in plot for plot in chart.plots)
+    assert chart.title == "Master curve" and all(plot.count("FillBetween") == 1 for plot in chart.plots)
+    # The line is the mix, of which the reported values are, and the law is dashed beside it.
+    assert all("the mix, 95 % band" in plot and "law of few parameters" in plot for plot in chart.plots)
     titles, at, _ = told(chart.plots[0])
     cold, warm = ([x for t, (x, _) in zip(titles, at) if f", {c} °C, 1 Hz" in t][0] for c in (4, 21))
     one, ten = ([x for t, (x, _) in zip(titles, at) if f", 21 °C, {f} Hz" in t][0] for f in (1, 10))

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import re
+import shutil
 
 import pandas as pd
 import pytest
@@ -61,8 +63,27 @@ def test_moduli_stand_with_their_intervals(folder, text):
 def test_what_was_left_out_stands_with_its_reason(folder, text):
     table = pd.read_csv(folder / "corrected.csv", keep_default_na=False)
     row = table[table["status"] == "left out"].iloc[0]
-    assert f"{row.specimen} {row.temperature_C:g} °C {row.frequency_Hz:g} left out" in text
+    assert f"{row.specimen} {row.nominal_temperature_C:g} °C {row.frequency_Hz:g} Hz left out" in text
     assert row.reasons.partition(" ")[0] in text
+
+
+def test_each_specimen_stands_as_measured_and_what_is_not_simply_used_is_marked(folder, text):
+    table, marks = (
+        pd.read_csv(folder / "corrected.csv", keep_default_na=False),
+        {"used": "", "left out": " X"},
+    )
+    for row in table.itertuples():
+        mark = marks.get(row.status, " ?")
+        assert f"{row.recorded_E_MPa:.0f} {row.recorded_phase_deg:.1f}°{mark}" in text
+
+
+def test_doubtful_tests_among_those_used_are_told(folder, tmp_path):
+    content = json.loads((folder / "diagnosis.json").read_text())
+    content["trust"] |= {"use": 20, "check": 5, "held_back": 2}
+    shutil.copytree(folder, tmp_path, dirs_exist_ok=True)
+    (tmp_path / "diagnosis.json").write_text(json.dumps(content))
+    made = PdfReader(write_handout(tmp_path, "t")).pages[0].extract_text()
+    assert "They rest on 23 tests, 3 of them doubtful." in re.sub(r"\s+", " ", made)
 
 
 def test_nothing_of_the_terminal_stands_in_it(pages, text):

@@ -34,8 +34,9 @@ class NamedThen(TypedDict):
 class Gain(TypedDict):
     """Errors before and after a rung.
 
-    averages_by_temperature: The two errors at each temperature as in Table 4, of averages over specimens; before
-        bond_mapping and relaxation_spectrum those of the simulated campaigns, where they are given.
+    averages_by_temperature: The two errors at each temperature as in Table 4, and that of the phase in degrees, of
+        averages over specimens; before bond_mapping and relaxation_spectrum those of the simulated campaigns, where
+        they are given.
     mre_E_percent: Mean relative error of |E*| of single tests, percent.
     mre_phase_percent: Mean relative error of the phase of single tests, percent of the phase or of its scatter,
         whichever is larger.

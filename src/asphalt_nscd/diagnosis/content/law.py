@@ -13,10 +13,12 @@ class LawMisses(TypedDict):
 
     mre_E_percent: Of the modulus.
     mre_phase_percent: Of the phase.
+    off_phase_deg: Of the phase in degrees.
     """
 
     mre_E_percent: NotNegative
     mre_phase_percent: NotNegative
+    off_phase_deg: NotNegative
 
 
 class LawFitted(TypedDict):
@@ -27,6 +29,7 @@ class LawFitted(TypedDict):
     parameters: Number of parameters, those of the shift among them.
     mre_E_percent: Of the modulus.
     mre_phase_percent: Of the phase.
+    off_phase_deg: Of the phase in degrees.
     taken: Whether it is the one in law.json.
     """
 
@@ -35,6 +38,7 @@ class LawFitted(TypedDict):
     parameters: Some
     mre_E_percent: NotNegative
     mre_phase_percent: NotNegative
+    off_phase_deg: NotNegative
     taken: bool
 
 

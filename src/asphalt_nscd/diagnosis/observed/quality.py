@@ -32,6 +32,12 @@ class Exceeded:
     value: float
     limit: float
 
+    @property
+    def sentence(self) -> str:
+        """What the machine gave and the limit."""
+        of = LIMITS[self.column]
+        return f"{of.label} {self.value:.3g} {of.unit} (limit {self.limit:g})"
+
 
 # Drift of load and deformation is kept but not judged: no number of the standard could be checked for it, and the
 # sign that means "in the direction of the load" differs from machine to machine.

@@ -66,7 +66,7 @@ class LawOfMix:
         return content | {"averaged_over": averaged_over(self.mix)}
 
     def misses(self, diagnosis: Diagnosis) -> dict[str, float]:
-        """Mean relative errors [%] of the law with what was taken off, as in Table 4, at the tests of its fit."""
+        """Errors of the law with what was taken off, as `errors` has them, mean over the isotherms of its fit."""
         observed = diagnosis.observed
         law = self.law.complex_modulus(observed.omega, observed.temperature)
         shown = np.log(np.abs(law)) + 1j * np.angle(law) + self.mix.effect(observed)

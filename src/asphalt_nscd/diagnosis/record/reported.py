@@ -137,6 +137,7 @@ def corrected(diagnosis: Diagnosis, whole: Observations, mix: Mixture, record: p
     return pd.DataFrame(
         {
             "specimen": record["specimen"],
+            "nominal_temperature_C": whole.isotherm,
             "temperature_C": whole.temperature,
             "frequency_Hz": whole.frequency,
             "E_MPa": np.abs(after) * 1e-6,

@@ -277,9 +277,7 @@ def _singled_out(observed: Observations) -> list[list[str]]:
         alike = sum(other.column == one.column and block[other.row] == block[one.row] for other in above)
         # What half of a sweep exceeds is its gauges or the control, and accuses no single test.
         if 2 * alike < np.count_nonzero(block == block[one.row]):
-            limit = quality.LIMITS[one.column]
-            unit = limit.unit
-            sentences[one.row].append(f"{limit.label} {one.value:.3g} {unit} (limit {one.limit:g})")
+            sentences[one.row].append(one.sentence)
     return sentences
 
 

@@ -15,6 +15,7 @@ from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
 from asphalt_nscd.measurements.agreement import KEYS, mean_relative_error
 
 ERRORS = ("mre_E_percent", "mre_phase_percent")  # of Table 4
+OFF_PHASE = "off_phase_deg"
 CLOSE = 0.01  # change of the objective at which a fit that is only compared with the tests ends
 
 
@@ -59,18 +60,24 @@ def _frame(diagnosis: Diagnosis, logarithm: Complex) -> pd.DataFrame:
 
 
 def errors(diagnosis: Diagnosis, logarithm: Complex) -> dict[str, dict[str, float]]:
-    """Mean relative errors [%] by quantity and isotherm, as in Table 4, of tests simulated (ln E* (n,) not NaN)."""
+    """Mean relative errors [%] by quantity and isotherm, as in Table 4, of tests simulated (ln E* (n,) not NaN).
+
+    `OFF_PHASE` is the mean error of the phase in degrees.
+    """
     there = ~np.isnan(logarithm)
-    point = {"temperature_C": diagnosis.observed.isotherm, "condition": diagnosis.observed.cell}
-    simulated = _frame(diagnosis, logarithm).assign(**point)[there]
+    at = {"temperature_C": diagnosis.observed.isotherm, "condition": diagnosis.observed.cell}
+    simulated = _frame(diagnosis, logarithm).assign(**at)[there]
     if simulated.empty:
-        return {name: {} for name in ERRORS}
+        return {name: {} for name in (*ERRORS, OFF_PHASE)}
     scatter = float(np.degrees(diagnosis.noise.sigma[1]))
-    measured = _frame(diagnosis, diagnosis.observed.logarithm).assign(**point)[there]
+    measured = _frame(diagnosis, diagnosis.observed.logarithm).assign(**at)[there]
     # Over two amplitudes an average would hide what softens with the strain.
-    found = mean_relative_error(measured, simulated, scatter, (*KEYS, "condition"))
-    by = [f"{t:g}" for t in found["temperature_C"]]
-    return {name: dict(zip(by, found[name].tolist(), strict=True)) for name in ERRORS}
+    point = [*KEYS, "condition"]
+    found = mean_relative_error(measured, simulated, scatter, point).set_index("temperature_C")
+    phases = [table.groupby(point)["phase_deg"].mean() for table in (measured, simulated)]
+    found[OFF_PHASE] = (phases[1] - phases[0]).abs().groupby("temperature_C").mean()
+    found.index = [f"{t:g}" for t in found.index]
+    return {name: found[name].to_dict() for name in (*ERRORS, OFF_PHASE)}
 
 
 def _misses(diagnosis: Diagnosis, logarithm: Complex, rows: NDArray[np.bool_]) -> dict[str, float]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -24,6 +25,7 @@ OF_THE_MIX = EFFECTS | {LAW, BOND_MAPPING}
 FIT_WORSE = 1.05  # times the misfit without a cause, from which it is told that the cause does not help
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
+QUALITY_VALUE = re.compile(r"(?<= )\S+(?= \S+ \(limit )")
 SAME = 1e-3  # relative difference of errors of one law
 
 
@@ -38,13 +40,30 @@ def doubtful_tests(content: Content) -> list[Content]:
     return [one for one in tests if ITSELF in one["decided_by"] and one["status"] != LEFT_OUT]
 
 
-def by_isotherm(tests: Sequence[Content]) -> list[tuple[str, float, tuple[str, ...], list[float]]]:
-    """Tests of one specimen and isotherm with the same reasons: specimen, degC, reasons and frequencies [Hz]."""
-    alike: dict[tuple[str, float, tuple[str, ...]], set[float]] = {}
+def by_isotherm(tests: Sequence[Content]) -> list[tuple[str, float, list[str], list[float]]]:
+    """Tests of one specimen and isotherm with the same reasons: specimen, degC, reasons and frequencies [Hz].
+
+    Values of a quality column that differ are told from the least to the largest.
+    """
+    alike: dict[tuple[str, float, tuple[str, ...]], list[Content]] = {}
     for one in tests:
-        place = one["specimen"], one["temperature_C"], tuple(one["reasons"])
-        alike.setdefault(place, set()).add(one["frequency_Hz"])
-    return [(*place, sorted(frequencies)) for place, frequencies in alike.items()]
+        kinds = tuple(QUALITY_VALUE.sub("{}", reason) for reason in one["reasons"])
+        alike.setdefault((one["specimen"], one["temperature_C"], kinds), []).append(one)
+    return [
+        (
+            specimen,
+            at,
+            [_together([one["reasons"][k] for one in own]) for k in range(len(kinds))],
+            sorted({one["frequency_Hz"] for one in own}),
+        )
+        for (specimen, at, kinds), own in alike.items()
+    ]
+
+
+def _together(reasons: Sequence[str]) -> str:
+    """One reason for several that differ in the value of a quality column at most."""
+    values = sorted({value for reason in reasons for value in QUALITY_VALUE.findall(reason)}, key=float)
+    return QUALITY_VALUE.sub(" to ".join([*values[:1], *values[1:][-1:]]), reasons[0])
 
 
 def rungs_of(content: Content, kind: str) -> list[Content]:
@@ -125,14 +144,18 @@ def held_back(content: Content) -> list[str]:
     return [*levels.places(content["odd_levels"], content["odd_phases"]), *at]
 
 
-def misses(content: Content, left: Mapping[str, float] | None) -> tuple[list[float], list[float]]:
-    """Errors [%] of |E*| and phase, mean over temperatures, before the first rung of the ladder and after the last.
+def misses(
+    content: Content, left: Mapping[str, float] | None, in_degrees: bool
+) -> tuple[list[float], list[float]]:
+    """Errors of |E*| [%] and phase, mean over temperatures, before the first rung of the ladder and after the last.
 
-    `left`: errors of "E" and "phase" that tests simulated with the law have left; else those of the diagnosis.
+    That of the phase is in percent of it, as in Table 4, or `in_degrees`. `left`: errors of "E" and "phase" [%] that
+    tests simulated with the law have left; else those of the diagnosis.
     """
-    first, last = (mean_averages(content["ladder"][k]["gain"]["in_sample"]).values() for k in (0, -1))
-    after = [errors["after"] for errors in last] if left is None else [left["E"], left["phase"]]
-    return [errors["before"] for errors in first], after
+    names = ("mre_E_percent", "off_phase_deg" if in_degrees else "mre_phase_percent")
+    first, last = (mean_averages(content["ladder"][k]["gain"]["in_sample"]) for k in (0, -1))
+    after = [last[name]["after"] for name in names] if left is None else [left["E"], left["phase"]]
+    return [first[name]["before"] for name in names], after
 
 
 def made_worse(before: Sequence[float], after: Sequence[float]) -> list[str]:

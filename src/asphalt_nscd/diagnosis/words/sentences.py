@@ -139,9 +139,10 @@ def of_both(variation: Content) -> str:
     return f"{variation['E_percent']:.1f} % in |E*|, {variation['phase_deg']:.1f} deg in phase"
 
 
-def percent(errors: Sequence[float]) -> list[str]:
-    """Errors [%] to two digits."""
-    return [f"{float(f'{error:.2g}'):g} %" for error in errors]
+def off(errors: Sequence[float], in_degrees: bool) -> list[str]:
+    """Errors of |E*| [%] and of the phase, in % or `in_degrees`, to two digits."""
+    units = ("%", "deg" if in_degrees else "%")
+    return [f"{float(f'{error:.2g}'):g} {unit}" for error, unit in zip(errors, units, strict=True)]
 
 
 def limits(limit: Content, isotherms: Sequence[float]) -> str:

@@ -8,6 +8,10 @@ from typing import Any, NamedTuple
 from asphalt_nscd.diagnosis.words.sentences import estimate
 
 Content = Mapping[str, Any]
+DRIFT = (
+    " The drift is the machine's own: how far the mean deformation moved during the test, in percent of its amplitude. "
+    "In a mix that creeps under its load it may well exceed 100 %; the sign is the machine's."
+)
 
 
 class Table(NamedTuple):
@@ -32,7 +36,9 @@ def tables(content: Content) -> list[Table]:
         Table(
             "Phase above what |E*| requires",
             "How far the phase lies above what |E*| of the same isotherm requires, mean over its frequencies. A linear "
-            "mix that is measured without fault has no excess. It needs no law of the mix.",
+            "mix that is measured without fault has no excess. It needs no law of the mix."
+            + DRIFT
+            * any(one["deformation_drift_percent"] is not None for one in content["excess_phase"]),
             ["isotherm", "excess, deg", "standard error, deg", "machine's drift of deformation, %"],
             [
                 [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -36,11 +37,17 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     return figure
 
 
-def black(axes: Axes, tests: pd.DataFrame, means: pd.DataFrame, looks: dict[Any, tuple[Any, str]]) -> None:
-    """Draw |E*| against phase: tests of each `group` by its colour and mark, and what was modelled (`means`)."""
+def black(
+    axes: Axes,
+    tests: pd.DataFrame,
+    means: pd.DataFrame,
+    looks: dict[Any, tuple[Any, str]],
+    lines: Sequence[str] = tuple(LINES),
+) -> None:
+    """Draw |E*| against phase: tests of each `group` by its colour and mark, and of `means` what `lines` name."""
     for name, rows in tests.groupby("group"):
         panels.points(axes, rows["phase_deg"], rows["E_MPa"] * 1e-3, looks[name], rows)
-    _modelled(axes, means, lambda rows, end: (rows[f"phase{end}_deg"], rows[f"E{end}_MPa"] * 1e-3))
+    _modelled(axes, means, lambda rows, end: (rows[f"phase{end}_deg"], rows[f"E{end}_MPa"] * 1e-3), lines)
     axes.set_xlabel(panels.QUANTITIES["phase"][2])
     panels.quantity_axis(axes, "E")
 
@@ -51,10 +58,10 @@ def _cole(rows: pd.DataFrame, end: str) -> tuple[np.ndarray, np.ndarray]:
     return star.real, star.imag
 
 
-def _modelled(axes: Axes, means: pd.DataFrame, plane: Any) -> None:
+def _modelled(axes: Axes, means: pd.DataFrame, plane: Any, lines: Sequence[str] = tuple(LINES)) -> None:
     for _, rows in means.sort_values("frequency_Hz").groupby("temperature_C"):
-        for when, look in LINES.items():
-            axes.plot(*plane(rows, f"_{when}"), color=style.INK, zorder=2, **look)
+        for when in lines:
+            axes.plot(*plane(rows, f"_{when}"), color=style.INK, zorder=2, **LINES[when])
 
 
 def keys(origin: str) -> list[Line2D]:

@@ -18,16 +18,20 @@ from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures import numbers, panels, style
 
+BESIDE: dict[str, Any] = {"lw": 0.9, "ls": (0, (4, 2))}  # how the law is drawn beside the mix
+
 
 @dataclass(frozen=True)
 class Master:
     """Tests and curves over reduced_Hz; `shift` is log10 of the factor by isotherm [degC], none without a common law.
 
-    tests: specimen, isotherm_C, reduced_Hz, E_MPa, phase_deg, and filled and words for `panels.points`. law: the same
-    quantities, with their 95 % bands if these are known; in its place isotherms of what was modelled.
+    tests: specimen, isotherm_C, reduced_Hz, E_MPa, phase_deg, and filled and words for `panels.points`. mix: the same
+    quantities of the mix with their 95 % bands, as reported.csv has them; law: of law.json, beside it. Where there is
+    no mix, isotherms of what was modelled.
     """
 
     tests: pd.DataFrame
+    mix: pd.DataFrame | None
     law: pd.DataFrame | None
     modelled: pd.DataFrame
     shift: dict[float, float]
@@ -43,13 +47,15 @@ class Master:
         return min(self.shift, key=lambda at: abs(self.shift[at]))
 
     def panel(self, axes: Axes, quantity: str) -> None:
-        """Draw "E" or "phase" over reduced frequency: points, and the law with its band."""
+        """Draw "E" or "phase" over reduced frequency: points, the mix with its band, and the law dashed."""
         column, scale, _ = panels.QUANTITIES[quantity]
         looks = dict(zip(self.isotherms, style.series(len(self.isotherms)), strict=True))
         for isotherm, rows in self.tests.groupby("isotherm_C"):
             panels.points(axes, rows["reduced_Hz"], scale * rows[column.format("")], looks[isotherm], rows)
         if self.law is not None:
-            panels.line(axes, "reduced_Hz", quantity, self.law, style.INK)
+            panels.line(axes, "reduced_Hz", quantity, self.law, style.GREY, **BESIDE)
+        if self.mix is not None:
+            panels.line(axes, "reduced_Hz", quantity, self.mix, style.INK)
         else:
             for isotherm, rows in self.modelled.groupby("isotherm_C"):
                 panels.line(axes, "reduced_Hz", quantity, rows, looks[isotherm][0], "_after")
@@ -63,11 +69,11 @@ class Master:
 
     def keys(self, measured: str) -> list[Line2D]:
         """Entries of a legend: what was `measured`, and the line."""
-        words = "modelled" if self.law is None else "law of the mix, 95 % band"
-        if self.law is not None and "E_low_MPa" not in self.law:
-            words = "law of the mix"
-        point = panels.key(measured, (style.INK, "o"), filled="filled" in self.tests)
-        return [point, Line2D([], [], color=style.INK, lw=1.0, label=words)]
+        words = "modelled" if self.mix is None else "the mix, 95 % band"
+        lines = [Line2D([], [], color=style.INK, lw=1.0, label=words)]
+        if self.law is not None:
+            lines.append(Line2D([], [], color=style.GREY, label="law of few parameters", **BESIDE))
+        return [panels.key(measured, (style.INK, "o"), filled="filled" in self.tests), *lines]
 
 
 def master(
@@ -84,7 +90,8 @@ def master(
     placed = [_reduced(one, nominal, shift) for one in (tests, residuals)]
     modelled = conditions(placed[1].assign(temperature_C=placed[1]["isotherm_C"]), content["scatter"])
     modelled = _reduced(modelled, nominal, shift).sort_values("frequency_Hz")
-    return Master(placed[0], _law(curve) if shift and curve else None, modelled, shift)
+    mix, law = _curves(curve) if shift and curve else (None, None)
+    return Master(placed[0], mix, law, modelled, shift)
 
 
 def _reduced(tests: pd.DataFrame, nominal: list[float], shift: dict[float, float]) -> pd.DataFrame:
@@ -93,15 +100,15 @@ def _reduced(tests: pd.DataFrame, nominal: list[float], shift: dict[float, float
     return tests.assign(isotherm_C=isotherm, reduced_Hz=tests["frequency_Hz"] * factor)
 
 
-def _law(curve: Sequence[Path]) -> pd.DataFrame:
-    """The law of law.json with its bands, else the free master curve."""
+def _curves(curve: Sequence[Path]) -> tuple[pd.DataFrame, pd.DataFrame | None]:
+    """The free master curve with its band, of which the reported values are, and the law of law.json without one."""
     table = read_csv(only_file(curve, "master curve"))
     numbers = [name for name in table.columns if name != "averaged_over"]
     # A band that is not known is empty.
     frame = pd.DataFrame({name: table.numbers_or_nan(name) for name in numbers}).dropna(axis=1, how="all")
-    own = {name: name.removeprefix("law_") for name in frame if name.startswith("law_")}
     frame = frame.rename(columns={"frequency_Hz": "reduced_Hz"})
-    return frame[["reduced_Hz", *own]].rename(columns=own) if own else frame
+    own = {f"law_{name}": name for name in ("E_MPa", "phase_deg") if f"law_{name}" in frame}
+    return frame, frame[["reduced_Hz", *own]].rename(columns=own) if own else None
 
 
 @style.journal

@@ -126,8 +126,10 @@ def marked(axes: Axes, rows: pd.DataFrame) -> None:
             np.searchsorted(frequencies, row.frequency_Hz),
         )
         for name in row.marks:
-            place = 0.87 if name == "quality" else 0.13
-            axes.plot(k + place, i + 0.8, marker=MARKS[name], color=style.INK, ms=3.0, mfc="none", mew=0.7)
+            place = 0.86 if name == "quality" else 0.14
+            # On a patch of paper: seen on every colour, on light pages and dark.
+            axes.plot(k + place, i + 0.8, marker="s", color="white", ms=5.0, mew=0.0)
+            axes.plot(k + place, i + 0.8, marker=MARKS[name], color=style.INK, ms=3.0, mfc="none", mew=0.9)
 
 
 def isotherm_of(temperature: pd.Series, stated: Sequence[float]) -> np.ndarray:

@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 from zlib import crc32
 
 import matplotlib
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
@@ -25,7 +26,7 @@ from asphalt_nscd.diagnosis.written import (
     read_residuals,
     three_digits,
 )
-from asphalt_nscd.files.words import counted, specimen_named
+from asphalt_nscd.files.words import capital, counted, specimen_named
 from asphalt_nscd.reporting.figures import fig_black, fig_master, fig_residual_map, panels, style
 from asphalt_nscd.reporting.figures.numbers import celsius, minus
 from asphalt_nscd.reporting.figures.save import figure_bytes
@@ -38,6 +39,8 @@ CLEAR = 2.0  # standard errors, below which a difference says little
 HINT = (
     "Point at a test, tap it, or step through the tests with the arrow keys; Home, End and Escape work too."
 )
+POINTS = "test; hollow: doubtful or left out"
+BURGERS = "a Burgers law fitted to each temperature by itself"
 NONE = "No isotherm has the four tests needed to compare modulus and phase."
 
 
@@ -59,23 +62,29 @@ def charts(
     curve: Sequence[Path] = (),
 ) -> dict[str, Chart]:
     """By name: "law" (master curve), "specimens" (Black diagram), "causality" and "residuals" (maps)."""
-    content, used, tests = read_diagnosis(diagnosis), read_residuals(residuals), read_causality(causality)
-    stated = [float(at) for at in content["reading"]["isotherms_C"]]
+    content, used = read_diagnosis(diagnosis), read_residuals(residuals)
+    tests = every_test(causality, content)
+    tests = tests.assign(words=[_words(row) for row in tests.to_dict("records")])
+    stated = content["reading"]["isotherms_C"]
     used = used.assign(isotherm_C=panels.isotherm_of(used["temperature_C"], stated))
     means = conditions(used.assign(temperature_C=used["isotherm_C"]), content["scatter"])
-    tests = tests.assign(isotherm_C=panels.isotherm_of(tests["temperature_C"], stated))
-    tests = tests.sort_values(["isotherm_C", "frequency_Hz", "specimen"])
-    tests = tests.assign(
-        filled=tests["reasons"] == "", words=[_words(row) for row in tests.to_dict("records")]
-    )
     master = fig_master.master(tests, used, content, curve)
+    before = "the first simulation of the study" if "campaign" in content["numerics"] else BURGERS
     made = [
         _law(master),
         _specimens(master.tests, means),
-        _against_phase(tests),
-        _residuals(used, means, content["scatter"]),
+        _against_phase(tests, content["scatter"]["phase_deg"]),
+        _residuals(used, means, content["scatter"], before),
     ]
     return {chart.name: chart for chart in made}
+
+
+def every_test(causality: Sequence[Path], content: Mapping[str, Any]) -> pd.DataFrame:
+    """Tests by isotherm_C, frequency_Hz and specimen, as `read_causality` has them; filled: nothing is against it."""
+    tests = read_causality(causality)
+    at = panels.isotherm_of(tests["temperature_C"], content["reading"]["isotherms_C"])
+    tests = tests.assign(isotherm_C=at, filled=tests["reasons"] == "")
+    return tests.sort_values(["isotherm_C", "frequency_Hz", "specimen"])
 
 
 def page_figure(width: float, height: float) -> tuple[Figure, Any]:
@@ -123,14 +132,16 @@ def _law(master: fig_master.Master) -> Chart:
     for quantity, name in (("E", "|E*|"), ("phase", "phase angle")):
         figure, axes = page_figure(WIDTH, HEIGHT)
         master.panel(axes, quantity)
-        style.isotherm_legends(figure, master.keys("test; hollow: doubtful"), master.isotherms)
+        style.isotherm_legends(figure, master.keys(POINTS), master.isotherms)
         plots.append(inline(figure, f"{name}, {counted(len(master.tests), 'test')}"))
     caption = "Tests as they were measured, before any correction."
-    if master.law is not None:
+    if master.mix is not None:
         caption += (
-            " Law: of the mix, without established causes, the mean with possible ones and without; its band holds"
-            " what scatter, specimens, causes and its form leave open."
+            " The mix: without established causes, the mean with possible ones and without; reported.csv has its"
+            " values, and its band holds what scatter, specimens and causes leave open."
         )
+    if master.law is not None:
+        caption += " The law of few parameters is law.json, fitted to the same tests for other programs."
     if not master.shift:
         caption += " No law common to all temperatures was taken, so there are no shift factors."
     return Chart("law", "Master curve" if master.shift else "Isotherms", caption, plots)
@@ -144,7 +155,9 @@ def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
     for title, draw in (
         (
             "Black diagram",
-            lambda axes: fig_black.black(axes, tests.assign(group=tests["specimen"]), means, looks),
+            lambda axes: fig_black.black(
+                axes, tests.assign(group=tests["specimen"]), means, looks, ["after"]
+            ),
         ),
         ("|E*|", lambda axes: _by_specimen(axes, tests, looks)),
     ):
@@ -156,7 +169,7 @@ def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
         "specimens",
         "Specimens: Black diagram and master curve",
         "Tests of one material should lie on one curve. Hollow points: not simply used. Lines in the Black diagram: "
-        "with all causes, and dashed before: a Burgers law at each temperature, or the first simulation of a study.",
+        "modelled with all named causes, an isotherm each.",
         plots,
     )
 
@@ -169,10 +182,13 @@ def _by_specimen(axes: Any, tests: pd.DataFrame, looks: dict[str, tuple[Any, str
 
 
 @style.journal
-def _against_phase(tests: pd.DataFrame) -> Chart:
-    tests = tests.assign(value=tests["phase_deg"] - tests["phase_required_deg"]).dropna(subset="value")
-    # The size of one degree is seen on the best table too.
-    norm = panels.banded(max(float(tests["value"].abs().max()), 1.0) if len(tests) else 1.0)
+def _against_phase(tests: pd.DataFrame, scatter: float) -> Chart:
+    """By specimen; `scatter` is that of the phase of one test, degrees."""
+    error = np.hypot(tests["std_error_deg"], scatter)
+    excess = (tests["phase_deg"] - tests["phase_required_deg"]) / error
+    tests = tests.assign(value=excess).dropna(subset="value")
+    # What chance does looks pale on the best table too.
+    norm = panels.banded(max(float(tests["value"].abs().max()), NOTABLE) if len(tests) else NOTABLE)
     plots = []
     for name, own in tests.groupby("specimen", sort=False):
         # Amplitudes share a cell, which shows the worst.
@@ -185,16 +201,17 @@ def _against_phase(tests: pd.DataFrame) -> Chart:
         marks = [_marks(row) for row in worst.to_dict("records")]
         panels.marked(axes, worst.assign(marks=marks))
         axes.set(xlabel="frequency (Hz)", ylabel="temperature (°C)")
-        axes.set_title(f"{specimen_named(str(name))}: phase less required (°)", loc="left", fontsize=9.0)
+        axes.set_title(capital(specimen_named(str(name))), loc="left", fontsize=9.0)
         plots.append(inline(figure, f"{specimen_named(str(name))}, {counted(len(worst), 'test')}"))
     caption = (
-        "In degrees. The required phase is computed from |E*| alone, and no delay or offset is taken off. The list of "
-        "doubtful tests uses the phases at the other frequencies too, so its numbers differ. Cross: left out. "
-        "Ring: doubtful or held back. Triangle: a quality limit is exceeded."
+        "In standard errors, those of one test and of the required phase, which is little known at the ends of an "
+        "isotherm: beyond 3 it is hardly chance; point at a cell for the degrees. The required phase is computed from "
+        "|E*| alone, and no delay or offset is taken off. The list of doubtful tests uses the phases at the other "
+        "frequencies too, so its numbers differ. Cross: left out. Ring: doubtful or held back. Triangle: a quality "
+        "limit is exceeded."
     )
-    return Chart(
-        "causality", "Phase measured less the phase that |E*| requires", caption if plots else NONE, plots
-    )
+    title = "Phase measured less the phase that |E*| requires, over its standard error"
+    return Chart("causality", title, caption if plots else NONE, plots)
 
 
 def _marks(row: Mapping[str, Any]) -> list[str]:
@@ -203,7 +220,7 @@ def _marks(row: Mapping[str, Any]) -> list[str]:
 
 
 @style.journal
-def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: Mapping[str, Any]) -> Chart:
+def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: Mapping[str, Any], before: str) -> Chart:
     plots = []
     for quantity, (name, unit) in {"E": ("|E*|", "%"), "phase": ("phase", "°")}.items():
         for when in BEFORE_AFTER:
@@ -215,7 +232,10 @@ def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: Mapping[str, A
             axes.set_title(f"{name}, {when} ({unit})", loc="left", fontsize=9.0)
             plots.append(inline(figure, f"{name} {when}, {counted(len(means), 'condition')}"))
     frame = f"A frame: beyond {NOTABLE:g} standard deviations of replicates."
-    caption = f"Measured less modelled, means over specimens. {frame}"
+    caption = (
+        f"Measured less modelled, means over specimens. Before: {before}. After: one law with all named causes, where "
+        f"there are any. {frame}"
+    )
     return Chart("residuals", "Residual map", caption, plots, HINT.replace("test", "condition"))
 
 

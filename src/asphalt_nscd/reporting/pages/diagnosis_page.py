@@ -23,15 +23,18 @@ from asphalt_nscd.reporting.pages.style import filled
 from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_ladder
 
 MADE_OF = ("residuals.csv", "causality.csv", "diagnosis.json")
-TO_HAND_ON = (
-    "report.pdf",
-    "corrected.xlsx",
-    "corrected.csv",
-    "reported.csv",
-    "master_curve.csv",
-    "law.json",
-    "limits.csv",
-)
+FILES = {  # that may lie beside the page, and what they hold
+    "report.pdf": "pages to hand on",
+    "corrected.xlsx": "the tables in one workbook",
+    "corrected.csv": "each test",
+    "reported.csv": "values of the mix",
+    "master_curve.csv": "its curve",
+    "law.json": "its law, for other programs",
+    "limits.csv": "limits tried",
+    "residuals.csv": "each test less a Burgers law of each temperature (before) and less one law with causes (after)",
+    "causality.csv": "phases that |E*| requires",
+    "diagnosis.json": "all of it",
+}
 TEMPLATE, PAGE = "diagnosis_page.html", "diagnosis.html"
 LEAST_P = 1e-6  # beyond which a chance is of no more use to a reader
 HELD_OUT = {
@@ -52,7 +55,7 @@ TABLE4 = [f"mre_{q}_{k}_percent" for q in ("E", "phase") for k in ("published", 
 def write_page(folder: Path, title: str) -> Path:
     """Write diagnosis.html from the files of a diagnosis; it links those that are there."""
     residuals, causality, diagnosis = (folder / name for name in MADE_OF)
-    links = [name for name in (*TO_HAND_ON, *MADE_OF) if (folder / name).is_file()]
+    links = {name: words for name, words in FILES.items() if (folder / name).is_file()}
     curve = list(filter(Path.is_file, [folder / "master_curve.csv"]))
     content = render(sections([diagnosis], [residuals], [causality], curve=curve), title, links)
     with atomic_path(folder / PAGE) as path:
@@ -60,8 +63,8 @@ def write_page(folder: Path, title: str) -> Path:
     return folder / PAGE
 
 
-def render(content: Mapping[str, Any], title: str, links: Sequence[str] = ()) -> str:
-    """HTML of what `sections` gives; `links` are files beside the page that hold what it shows."""
+def render(content: Mapping[str, Any], title: str, links: Mapping[str, str] | None = None) -> str:
+    """HTML of what `sections` gives; `links` are files beside the page, and what they hold."""
     return filled(TEMPLATE, title=title, links=links, **content)
 
 
@@ -116,7 +119,7 @@ def law(content: Mapping[str, Any]) -> dict[str, Any] | None:
             f"{one['title']}{', in law.json' * one['taken']}",
             f"{one['parameters']}",
             _number(one["mre_E_percent"]),
-            _number(one["mre_phase_percent"]),
+            _number(one["off_phase_deg"]),
         ]
         for one in content["laws"]
     ]
@@ -169,7 +172,8 @@ def _errors(gain: Mapping[str, Any], inner: bool = False) -> list[str]:
 
     inner: of temperatures between others only.
     """
-    pairs = [*mean_averages(gain, inner).values(), gain.get("rms_over_scatter", {})]
+    found = mean_averages(gain, inner)
+    pairs = [found["mre_E_percent"], found["mre_phase_percent"], gain.get("rms_over_scatter", {})]
     return [" → ".join(map(_number, pair.values())) for pair in pairs]
 
 

@@ -17,13 +17,15 @@ from asphalt_nscd.diagnosis.content.doubts import DOUBTFUL, HELD_BACK, LEFT_OUT
 from asphalt_nscd.diagnosis.record.reported import R_84, TESTS
 from asphalt_nscd.diagnosis.words.answer import Words
 from asphalt_nscd.diagnosis.words.facts import by_isotherm
-from asphalt_nscd.diagnosis.words.sentences import numbers
+from asphalt_nscd.diagnosis.words.sentences import band
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.files.store import atomic_path
+from asphalt_nscd.files.words import capital, joined, numbers
 from asphalt_nscd.measurements.kinds import TEST_TYPES
 from asphalt_nscd.reporting.figures import fig_master, panels, style
 from asphalt_nscd.reporting.figures.numbers import celsius
 from asphalt_nscd.reporting.figures.save import figure_bytes
+from asphalt_nscd.reporting.pages.charts import POINTS, every_test
 from asphalt_nscd.reporting.pages.diagnosis_page import law
 from asphalt_nscd.reporting.pages.style import typeset
 from asphalt_nscd.reporting.settings import Heading
@@ -34,8 +36,10 @@ SIZE = 9.0  # points
 PALE = (238, 240, 243)
 # Rows of the answer that a client reads; the others tell the laboratory what to do next.
 FINDINGS = ("Data", "Fault", "Possible fault", "Effect", "Possible effect", "Scatter", "Law", "Unexplained")
-DOUBTS = ("Check first",)  # what was left out is a table
-AT_COMMAND_LINE = ("--", ".csv")  # what no client has
+FOR_THE_LABORATORY = ("--", ".csv", "Use their")  # sentences that tell it what to do
+ROOM = "\N{NO-BREAK SPACE}\n" * 3  # for a name by hand
+ABREAST = 6  # specimens
+MARKS = {DOUBTFUL: " ?", HELD_BACK: " ??", LEFT_OUT: " X"}  # behind the result of a test
 
 
 class _Report(FPDF):
@@ -118,8 +122,9 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf.text_block(typeset(Words(content)("value")[0]))
     pdf.set_font(FONT, size=SIZE)
     pdf.text_block(
-        "In brackets: 95 % intervals. Points: tests as measured. Values: the mix; certain faults are taken off, "
-        "possible ones by their probability. Line and band: the law below, which has few parameters."
+        "In brackets: 95 % intervals. The line and its band are the mix, of which all values below are: certain faults "
+        "are taken off, possible ones by their probability. Points: tests as measured. Dashed: the law below, of "
+        f"few parameters, for other programs.{_resting_on(content['trust'])}"
     )
     pdf.picture(*_pictures(folder, content))
     reported = pd.read_csv(folder / "reported.csv")
@@ -132,10 +137,10 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf.rows(_findings(content, FINDINGS), (1.0, 4.0), first_row_as_headings=False)
     pdf.heading("What was left out or is in doubt, and why")
     _left_out(pdf, content)
-    doubts = _findings(content, DOUBTS)
-    if doubts:
-        pdf.rows(doubts, (1.0, 4.0), first_row_as_headings=False)
     _law(pdf, content)
+    _each_specimen(pdf, folder)
+    pdf.heading("Signed")
+    pdf.rows([("Date", "Name", "Signature"), (ROOM, "", "")], (1.0, 2.0, 2.0))
     with atomic_path(folder / PDF) as path:
         pdf.output(str(path))
     return folder / PDF
@@ -143,30 +148,36 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
 
 def _about(content: Mapping[str, Any], heading: Heading) -> list[tuple[str, str]]:
     """Names and values of what was tested, by whom and how; what is not stated is left out."""
-    reading = content["reading"]
+    reading, voids = content["reading"], content["scatter"]["air_voids"]
     kind = TEST_TYPES.get(reading["test_type"], "not stated")
     said = {name: getattr(heading, name) for name in ("project", "mix", "operator", "date", "standard")}
     temperatures = ", ".join(f"{at:g}" for at in reading["isotherms_C"])
     tested = {
         "kind of test": kind[:1].upper() + kind[1:],
         "specimens": ", ".join(reading["specimens"]),
+        "air voids": "{lowest_percent:g} to {highest_percent:g} %".format(**voids) if voids else "",
         "temperatures": f"{temperatures} degC",
         "tests": str(content["tests"] + content["trust"]["not_used"]),
     }
     return [(name.capitalize(), text) for name, text in (said | tested).items() if text]
 
 
+def _resting_on(trust: Mapping[str, Any]) -> str:
+    """On how many doubtful tests the values rest, a sentence; empty where there are none."""
+    doubtful = trust["check"] - trust["held_back"]
+    return f" They rest on {trust['use'] + doubtful} tests, {doubtful} of them doubtful." if doubtful else ""
+
+
 @style.journal
 def _pictures(folder: Path, content: Mapping[str, Any]) -> list[Any]:
     """Master curves of |E*| and phase."""
-    tests = read_residuals([folder / "residuals.csv"])
-    curve = [path for path in [folder / "master_curve.csv"] if path.is_file()]
-    master = fig_master.master(tests, tests, content, curve)
+    tests, used = every_test([folder / "causality.csv"], content), read_residuals([folder / "residuals.csv"])
+    master = fig_master.master(tests, used, content, [folder / "master_curve.csv"])
     figures = []
     for quantity in panels.QUANTITIES:
         figure, axes = style.new_figure(86.0, 74.0)
         master.panel(axes, quantity)
-        style.isotherm_legends(figure, master.keys("test"), master.isotherms)
+        style.isotherm_legends(figure, master.keys(POINTS), master.isotherms)
         figures.append(figure)
     return figures
 
@@ -181,7 +192,7 @@ def _grid(pdf: _Report, table: pd.DataFrame) -> None:
     pdf.rows([["Hz", *map(celsius, cells)], *lines], (0.6, *[1.4] * cells.shape[1]), **look)
     pdf.set_font(FONT, size=SIZE)
     if not table["within_the_tests"].all():
-        pdf.text_block("*: no test was made near it; by the law of the mix with its band.")
+        pdf.text_block("*: no test was made near it; by the law of few parameters, with its band.")
 
 
 def _interval(row: Any) -> str:
@@ -196,26 +207,65 @@ def _interval(row: Any) -> str:
 def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[str, str]]:
     """Of the answer the rows with a label of `wanted`, as they are printed."""
     kept = [
-        (label, [one for one in said if not any(word in one for word in AT_COMMAND_LINE)])
+        (label, [one for one in said if not any(word in one for word in FOR_THE_LABORATORY)])
         for label, said in Words(content).rows()
         if label in wanted
     ]
-    return [(label, " ".join(said).replace("law.json", "the law")) for label, said in kept if said]
+    return [(label, capital(" ".join(said).replace("law.json", "the law"))) for label, said in kept if said]
 
 
 def _left_out(pdf: _Report, content: Mapping[str, Any]) -> None:
-    """Tests that are not simply used, and why."""
+    """Tests that are not simply used, and why; specimens and then isotherms with the same reasons in one line."""
+    alike: dict[tuple[str, str, str, str], list[float]] = {}
+    for status in (LEFT_OUT, HELD_BACK, DOUBTFUL):
+        own = [one for one in content["suspect_tests"] if one["status"] == status]
+        of_isotherm: dict[tuple[Any, ...], list[str]] = {}
+        for specimen, at, reasons, hertz in by_isotherm(own):
+            of_isotherm.setdefault((at, band(hertz), "; ".join(reasons)), []).append(specimen)
+        for (at, hertz, why), specimens in of_isotherm.items():
+            alike.setdefault((joined(specimens), hertz, status, why), []).append(at)
     lines = [
-        (specimen, celsius(at), numbers(hertz), status, "; ".join(reasons))
-        for status in (LEFT_OUT, HELD_BACK, DOUBTFUL)
-        for specimen, at, reasons, hertz in by_isotherm(
-            [one for one in content["suspect_tests"] if one["status"] == status]
-        )
+        (specimens, f"{numbers(at)} degC", hertz, status, why)
+        for (specimens, hertz, status, why), at in alike.items()
     ]
     if lines:
-        pdf.rows([("Specimen", "Temperature", "Hz", "Status", "Why"), *lines], (1.1, 1.3, 1.0, 1.0, 4.0))
+        pdf.rows(
+            [("Specimen", "Temperature", "Frequency", "Status", "Why"), *lines], (1.1, 1.4, 1.4, 0.9, 3.8)
+        )
     else:
         pdf.text_block(f"No test was left out: all {content['tests']} were used.")
+
+
+def _each_specimen(pdf: _Report, folder: Path) -> None:
+    """|E*| and phase of each specimen as recorded, a mark behind what is not simply used."""
+    tests = pd.read_csv(folder / "corrected.csv", dtype={"specimen": str})
+    cells = [
+        f"{row.recorded_E_MPa:.0f}  {row.recorded_phase_deg:.1f} deg{MARKS.get(row.status, '')}"
+        for row in tests.itertuples()
+    ]
+    keys = ["nominal_temperature_C", "frequency_Hz"]
+    grid = (
+        tests.assign(cell=cells)
+        .pivot_table("cell", keys, "specimen", aggfunc="; ".join, sort=False)
+        .fillna("")
+    )
+    pdf.heading("Each specimen as measured: |E*| in MPa and phase in °")
+    pdf.set_font(FONT, size=7.0)
+    for first in range(0, grid.shape[1], ABREAST):
+        own = grid.iloc[:, first : first + ABREAST].sort_index(ascending=[True, False])
+        lines = [
+            (celsius(at), f"{hertz:g}", *row)
+            for (at, hertz), row in zip(own.index, own.to_numpy(), strict=True)
+        ]
+        look = {"text_align": "CENTER", "line_height": 3.6, "padding": 0.3}
+        pdf.rows([("", "Hz", *own), *lines], (0.7, 0.6, *[1.4] * own.shape[1]), **look)
+        pdf.ln(2.0)
+    pdf.set_font(FONT, size=SIZE)
+    kinds = [
+        f"{mark.strip()} {status}" for status, mark in MARKS.items() if (tests["status"] == status).any()
+    ]
+    if kinds:
+        pdf.text_block(f"{joined(kinds)}.")
 
 
 def _law(pdf: _Report, content: Mapping[str, Any]) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from markupsafe import Markup
+from markupsafe import Markup, escape
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.templates import template
@@ -23,6 +23,7 @@ STYLE, SCRIPT = _own("page.css"), _own("page.js")
 LONG = 40  # characters of a cell that must not be squeezed into a word a line
 
 
+OPTION = re.compile(r"--[a-z][a-z-]*")
 CELSIUS, DEGREES, MINUS = (
     re.compile(r"\bdegC\b"),
     re.compile(r"(?<=\d) deg\b"),
@@ -44,6 +45,11 @@ def typeset(cell: object) -> str:
     return MINUS.sub("\N{MINUS SIGN}", text)
 
 
+def unbroken(cell: object) -> Markup:
+    """The same for a page, where an option of the command line stays in one line."""
+    return Markup(OPTION.sub(r'<span class="option">\g<0></span>', str(escape(typeset(cell)))))  # noqa: S704  escaped
+
+
 def worded(cell: object) -> Markup:
     """The class of a cell that holds a number or a sentence; nothing for a short one."""
     if isinstance(cell, int | float):
@@ -54,7 +60,7 @@ def worded(cell: object) -> Markup:
 
 def filled(name: str, **content: Any) -> str:
     """HTML of a template of this folder, with the style and the script of all pages."""
-    made = template(f"reporting/pages/{name}", {"worded": worded, "typeset": typeset})
+    made = template(f"reporting/pages/{name}", {"worded": worded, "typeset": unbroken})
     return made.render(style=STYLE, script=SCRIPT, **content)
 
 
