@@ -77,6 +77,12 @@ def banded(largest: float) -> BoundaryNorm:
     return BoundaryNorm(np.concatenate([-edges[::-1], edges]), colormaps[COLOURS].N)
 
 
+def standard_errors() -> BoundaryNorm:
+    """Bands 1, 2, 3, 5, 10 about zero: what chance does is pale on every table."""
+    edges = np.array([1.0, 2.0, 3.0, 5.0, 10.0])
+    return BoundaryNorm(np.concatenate([-edges[::-1], edges]), colormaps[COLOURS].N, clip=True)
+
+
 def cells(axes: Axes, rows: pd.DataFrame, norm: BoundaryNorm) -> PatchCollection:
     """Draw a cell for each row of temperature_C, frequency_Hz, value, framed (bool) and, for a page, words."""
     temperatures, frequencies = (np.unique(rows[name]) for name in ("temperature_C", "frequency_Hz"))
@@ -126,10 +132,10 @@ def marked(axes: Axes, rows: pd.DataFrame) -> None:
             np.searchsorted(frequencies, row.frequency_Hz),
         )
         for name in row.marks:
-            place = 0.86 if name == "quality" else 0.14
+            place = 0.91 if name == "quality" else 0.09
             # On a patch of paper: seen on every colour, on light pages and dark.
-            axes.plot(k + place, i + 0.8, marker="s", color="white", ms=5.0, mew=0.0)
-            axes.plot(k + place, i + 0.8, marker=MARKS[name], color=style.INK, ms=3.0, mfc="none", mew=0.9)
+            axes.plot(k + place, i + 0.84, marker="s", color="white", ms=5.0, mew=0.0)
+            axes.plot(k + place, i + 0.84, marker=MARKS[name], color=style.INK, ms=3.0, mfc="none", mew=0.9)
 
 
 def isotherm_of(temperature: pd.Series, stated: Sequence[float]) -> np.ndarray:

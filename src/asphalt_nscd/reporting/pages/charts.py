@@ -187,8 +187,6 @@ def _against_phase(tests: pd.DataFrame, scatter: float) -> Chart:
     error = np.hypot(tests["std_error_deg"], scatter)
     excess = (tests["phase_deg"] - tests["phase_required_deg"]) / error
     tests = tests.assign(value=excess).dropna(subset="value")
-    # What chance does looks pale on the best table too.
-    norm = panels.banded(max(float(tests["value"].abs().max()), NOTABLE) if len(tests) else NOTABLE)
     plots = []
     for name, own in tests.groupby("specimen", sort=False):
         # Amplitudes share a cell, which shows the worst.
@@ -196,8 +194,8 @@ def _against_phase(tests: pd.DataFrame, scatter: float) -> Chart:
             ["temperature_C", "frequency_Hz"], keep="last"
         )
         worst = worst.sort_values(["temperature_C", "frequency_Hz"]).assign(framed=False)
-        figure, axes = page_figure(WIDTH, 45.0)
-        panels.cells(axes, worst, norm)
+        figure, axes = page_figure(WIDTH, 22.0 + 7.0 * worst["isotherm_C"].nunique())
+        panels.cells(axes, worst, panels.standard_errors())
         marks = [_marks(row) for row in worst.to_dict("records")]
         panels.marked(axes, worst.assign(marks=marks))
         axes.set(xlabel="frequency (Hz)", ylabel="temperature (°C)")

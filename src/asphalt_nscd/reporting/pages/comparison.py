@@ -92,8 +92,11 @@ def _interval(row: Any) -> str:
 
 
 def _difference(row: Any) -> Markup:
-    ends = f"{row.stiffer_low_percent:+.0f} to {row.stiffer_high_percent:+.0f}"
-    said = f"{row.stiffer_percent:+.0f} % ({ends})".replace("-", "\N{MINUS SIGN}")
+    # + 0.0: what is rounded to -0 is 0.
+    middle, low, high = (
+        f"{round(getattr(row, f'stiffer{end}_percent')) + 0.0:+.0f}" for end in ("", "_low", "_high")
+    )
+    said = f"{middle} % ({low} to {high})".replace("-", "\N{MINUS SIGN}")
     return Markup("<b>{}</b>").format(said) if row.told_apart else Markup(said)  # noqa: S704  numbers
 
 

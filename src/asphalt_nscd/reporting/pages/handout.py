@@ -37,7 +37,7 @@ PALE = (238, 240, 243)
 # Rows of the answer that a client reads; the others tell the laboratory what to do next.
 FINDINGS = ("Data", "Fault", "Possible fault", "Effect", "Possible effect", "Scatter", "Law", "Unexplained")
 FOR_THE_LABORATORY = ("--", ".csv", "Use their")  # sentences that tell it what to do
-ROOM = "\N{NO-BREAK SPACE}\n" * 3  # for a name by hand
+ROOM = "\N{NO-BREAK SPACE}\n" * 2  # for a name by hand
 ABREAST = 6  # specimens
 MARKS = {DOUBTFUL: " ?", HELD_BACK: " ??", LEFT_OUT: " X"}  # behind the result of a test
 
@@ -69,7 +69,7 @@ class _Report(FPDF):
 
     def heading(self, text: str, size: float = 11.0) -> None:
         """A heading, never alone at the foot of a page."""
-        if self.get_y() > self.eph - 25.0:
+        if self.get_y() > self.eph + self.t_margin - 30.0:
             self.add_page()
         self.ln(3.0)
         self.set_font(FONT, "B", size)
@@ -187,7 +187,7 @@ def _grid(pdf: _Report, table: pd.DataFrame) -> None:
     table = table.assign(cell=[_interval(row) for row in table.itertuples()])
     cells = table.pivot(index="frequency_Hz", columns="temperature_C", values="cell").fillna("")
     lines = [[f"{f:g}", *cells.loc[f]] for f in cells.index[::-1]]
-    pdf.set_font(FONT, size=7.0)
+    pdf.set_font(FONT, size=7.0 * min(1.0, 5.5 / cells.shape[1]))  # an interval in one line
     look = {"text_align": "CENTER", "line_height": 3.6, "padding": 0.0}
     pdf.rows([["Hz", *map(celsius, cells)], *lines], (0.6, *[1.4] * cells.shape[1]), **look)
     pdf.set_font(FONT, size=SIZE)

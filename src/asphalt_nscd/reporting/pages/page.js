@@ -7,7 +7,7 @@ addEventListener("DOMContentLoaded", () => {
   document.body.append(told);
 
   const size = text => {
-    const found = /^[−-]?\d+(\.\d+)?(e[+-]?\d+)?/i.exec(text.trim());
+    const found = /^[−+-]?\d+(\.\d+)?(e[+-]?\d+)?/i.exec(text.trim());
     return found ? Number(found[0].replace("−", "-")) : NaN;
   };
   const compare = (a, b) => {
