@@ -169,6 +169,6 @@ def _reasons(
             [f"measured {away:.2g} K off target"],
         )
     above = quality.exceeded(whole)
-    for one in above:
-        if 2 * sum(other.column == one.column for other in above) >= whole.size:
-            yield DOUBTFUL, every == one.row, "the machine's quality columns", [one.sentence]
+    for value in above:
+        if 2 * sum(other.column == value.column for other in above) >= whole.size:
+            yield DOUBTFUL, every == value.row, "the machine's quality columns", [value.sentence]
