@@ -99,6 +99,20 @@ def test_differences_hold_the_truth_and_stand_only_where_both_were_tested(made):
         assert row.told_apart == (row.mix == "stiff <b>")
 
 
+def test_mixes_of_one_file_are_compared_by_their_names(mixes, tmp_path):
+    names = ["soft", "AC 16 50/70"]
+    frames = [pd.read_csv(path).assign(mix=name) for path, name in zip(mixes, names)]
+    pd.concat(frames).to_csv(tmp_path / "book.csv", index=False)
+    options = [part for name in names for part in ("--only-mix", name)]
+    options += ["--measured-in", "tension-compression", "--draws", "500", "--output", str(tmp_path / "out")]
+    result = CliRunner().invoke(command, [str(tmp_path / "book.csv"), *options], catch_exceptions=False)
+    assert result.exit_code == 0
+    assert "At 15 degC, 10 Hz AC 16 50/70 has +" in result.output
+    page = (tmp_path / "out/comparison.html").read_text(encoding="utf-8")
+    assert 'href="AC%2016%2050-70/diagnosis.html">AC 16 50/70</a>' in page
+    assert (tmp_path / "out/AC 16 50-70/report.pdf").is_file()
+
+
 def test_a_possible_cause_is_not_shown_as_a_certain_one(tmp_path):
     rung = {"cause": "channel_delay", "where": None, "established": True, "probability": 0.97}
     ladder = [

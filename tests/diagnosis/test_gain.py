@@ -78,3 +78,9 @@ def test_tests_of_two_amplitudes_are_not_averaged(diagnosis):
     off = np.log(np.tile([1.1, 0.9], 3))
     found = gain.averages(diagnosis, np.log(MEASURED) + off, np.log(MEASURED))
     assert found["20"]["mre_E_percent"]["before"] == pytest.approx(10.0, rel=1e-9)
+
+
+def test_the_error_of_the_phase_in_degrees_is_the_mean_of_its_sizes(diagnosis):
+    turned = np.radians([1.0, -3.0, 0.0, 0.5, 2.0, 2.0])
+    found = gain.errors(diagnosis, np.log(MEASURED) + 1j * turned)
+    assert found[gain.OFF_PHASE] == pytest.approx({"0": 2.0, "20": 0.25, "40": 2.0})

@@ -2,6 +2,7 @@ import numpy as np
 
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.quality import COLUMNS, LIMITS, Exceeded, exceeded
+from asphalt_nscd.diagnosis.words import facts
 from asphalt_nscd.table_import.quantities import QUALITY
 
 
@@ -53,3 +54,14 @@ def test_drift_is_kept_without_a_limit():
 
 def test_the_import_keeps_every_column_that_is_judged():
     assert set(QUALITY) == set(COLUMNS)
+
+
+def test_values_of_one_column_are_told_together_from_least_to_largest():
+    about = {"specimen": "A", "temperature_C": 4.0}
+    tests = [
+        {**about, "frequency_Hz": hertz, "reasons": ["x", f"deformation uniformity {value} % (limit 30)"]}
+        for hertz, value in ((10.0, "31.2"), (1.0, "104"), (25.0, "56.7"))
+    ]
+    ((*_, reasons, frequencies),) = facts.by_isotherm(tests)
+    assert reasons == ["x", "deformation uniformity 31.2 to 104 % (limit 30)"]
+    assert frequencies == [1.0, 10.0, 25.0]

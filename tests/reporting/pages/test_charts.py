@@ -106,6 +106,11 @@ def test_the_map_of_a_specimen_says_what_is_off_and_marks_what_is_not_used(resul
     said = float(re.search(r"; (\S+)° from what", words).group(1).replace("\N{MINUS SIGN}", "-"))
     assert said == pytest.approx(row["phase_deg"] - float(row["phase_required_deg"]), abs=0.05)
     assert len(chart.plots) == table["specimen"].nunique()
+    # In the cell the excess over its error: of the required phase, and of one test (0.5 deg).
+    off = row["phase_deg"] - float(row["phase_required_deg"])
+    number = off / np.hypot(float(row["std_error_deg"]), 0.5)
+    shown = f"{number:.{0 if abs(number) >= 9.95 else 1}f}".replace("-", "\N{MINUS SIGN}")
+    assert any(words in plot and f">{shown}</text>" in plot for plot in chart.plots)
 
 
 def test_a_table_too_small_to_be_judged_says_so(results):
