@@ -22,7 +22,7 @@ from asphalt_nscd.reporting.pages.charts import charts
 from asphalt_nscd.reporting.pages.style import filled
 from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_ladder
 
-MADE_OF = ("diagnosis.json", "residuals.csv", "causality.csv")
+MADE_OF = ("diagnosis.json", "residuals.csv", "causality.csv", "master_curve.csv")
 FILES = {  # that may lie beside the page, and what they hold
     "report.pdf": "pages to hand on",
     "corrected.xlsx": "the tables in one workbook",
@@ -55,8 +55,8 @@ TABLE4 = [f"mre_{q}_{k}_percent" for q in ("E", "phase") for k in ("published", 
 def write_page(folder: Path, title: str) -> Path:
     """Write diagnosis.html from the files of a diagnosis; it links those that are there."""
     links = {name: words for name, words in FILES.items() if (folder / name).is_file()}
-    made_of = ([folder / name] for name in MADE_OF)
-    content = render(sections(*made_of, curve=[folder / "master_curve.csv"]), title, links)
+    diagnosis, residuals, causality, curve = ([folder / name] for name in MADE_OF)
+    content = render(sections(diagnosis, residuals, causality, curve=curve), title, links)
     with atomic_path(folder / PAGE) as path:
         path.write_text(content, encoding="utf-8")
     return folder / PAGE
