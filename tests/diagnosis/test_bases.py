@@ -70,6 +70,25 @@ def test_the_departure_of_a_shift_is_a_cube_of_the_distance_to_the_middle():
     assert base.log_shift(x, temperature)[0] - straight == pytest.approx([-0.3, 0.0, 0.3, 2.4])
 
 
+def test_a_shift_that_turns_to_arrhenius_where_the_binder_is_glass_is_followed():
+    """SHRP-A-369: C1 = 19, C2 = 92 K about the defining temperature, 261 kJ/mol below it."""
+    base, glass = FlexibleSpectrum(TIMES, 15.0, 35.0, 25.0, 0.2), -5.0
+    temperature = np.array([-20.0, -10.0, 0.0, 10.0, 15.0, 20.0, 30.0, 40.0])
+    above, cold = np.maximum(temperature - glass, 0.0), np.minimum(temperature, glass) + 273.15
+    true = -LN10 * 19.0 * above / (92.0 + above) + 261e3 / 8.314 * (1.0 / cold - 1.0 / (glass + 273.15))
+    x = np.zeros(base.parameters)
+    x[-3:-1] = np.log(0.12), base.log_odds(7e-3)
+    for _ in range(10):  # the likeliest with 0.03 of ln time for the error of each, a tenth of a kelvin
+        shift, slope = base.log_shift(x, temperature)
+        left, rows = base.prior(x)
+        miss = true - shift - (true - shift).mean()
+        tests = (slope - slope.mean(axis=0)) / 0.03
+        whole, off = np.vstack([tests, rows[:, -6:]]), np.concatenate([miss / 0.03, -left])
+        x[-6:] += np.linalg.lstsq(whole, off, rcond=None)[0]
+    assert np.abs(miss).max() < 0.04  # 0.13 without bends
+    assert np.abs(base.prior(x)[0][-3:]).max() < 2.5  # standard deviations of the bends
+
+
 def test_derivatives_of_the_modulus_are_its_differences():
     base = FlexibleSpectrum(TIMES, 15.0, 25.0, 15.0, 0.2)
     x = np.random.default_rng(3).normal(0.0, 0.5, base.parameters) + np.linspace(18.0, 22.0, base.parameters)

@@ -78,7 +78,9 @@ def test_a_direction_is_followed_if_the_fit_leaves_a_trifle_of_it(right):
     fitted = right.ladder.fitted
     within = fitted.jacobian @ np.ones(fitted.jacobian.shape[1])
     residual = np.linalg.qr(fitted.jacobian, mode="complete")[0][:, -1]  # at right angles to all it can do
-    free = replace(fitted, precision=fitted.jacobian.T @ fitted.jacobian + 1e-9 * np.eye(fitted.law.size + 4))
+    free = replace(
+        fitted, precision=fitted.jacobian.T @ fitted.jacobian + 1e-9 * np.eye(fitted.gradient.size)
+    )
     assert doubts._followed(free, within[:, None])
     assert not doubts._followed(free, residual[:, None])
     mostly = within / np.linalg.norm(within) + 2.0 * np.sqrt(ABSORBED) * residual

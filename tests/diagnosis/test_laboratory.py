@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from test_diagnose import LAW, table
 
-from asphalt_nscd.diagnosis.model import fit_beside, laboratory, start
+from asphalt_nscd.diagnosis.model import fit_beside, laboratory, likelihood, start
 from asphalt_nscd.diagnosis.model.joint import Joint
 from asphalt_nscd.diagnosis.observed import scatter
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
@@ -136,6 +136,36 @@ def test_limits_of_a_careful_laboratory_do_not_grow():
         ("channel_delay", None): 2.9e-5, ("moving_mass", None): 0.15, ("self_heating", None): 0.35,
     }  # fmt: skip
     assert not {key: limits[key] for key, value in most.items() if limits[key] > value}
+
+
+def test_a_laboratory_that_holds_its_specimens_alike_holds_its_isotherms():
+    """The size is that of the drawn isotherms where specimens scatter as much, and small where they do not."""
+    random = np.random.default_rng(4)
+    together = random.uniform(-0.3, 0.3, 6)
+    careless = sizes(warmed(together + random.uniform(-0.3, 0.3, (4, 6))))
+    careful = sizes(table(3))
+    assert careful["isotherm temperature"] < 0.08
+    assert 0.08 < careless["isotherm temperature"] < 0.4
+
+
+def test_a_mean_variance_is_that_of_the_posterior():
+    """Of one process and one direction the integral is done by the trapezoid."""
+    joint, fit = fitted(table(3))
+    state = begun(joint, fit)
+    found = state.model.processes
+    k = [one.kind for one in found.described].index("isotherm temperature")
+    columns = found.factor[:, found.block == k]
+    free = [likelihood.directions(state.model, state.linear, columns[:, [at]]) for at in (1, 2)]
+    logarithm = np.linspace(-4.0, 4.0, 401)
+    weight = np.zeros(401)
+    for one in free:
+        for at, away in enumerate(logarithm):
+            v = np.where(np.arange(state.variances.size) == k, np.exp(2.0 * away), state.variances)
+            point = likelihood._point(state.model, one, np.log(v)).objective - found.prior(v)[0]
+            weight[at] += np.exp(-0.5 * (point + away**2))
+    expected = (weight * np.exp(2.0 * logarithm)).sum() / weight.sum()
+    told = likelihood.mean_variance(state.model, free, k, (1.0, 1.0), state.variances)
+    assert told == pytest.approx(expected, rel=0.1)
 
 
 def test_isotherms_within_the_tolerance_of_the_standard_are_no_fault():

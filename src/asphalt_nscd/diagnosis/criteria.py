@@ -83,6 +83,9 @@ LABORATORY = {
     # clamps of empty drawn tables of three or four specimens are 1.6 of their standard errors off (rms), with it 0.9.
     "specimen times": Usual(0.1, 1.0),
 }
+# Correlation between laboratories of the logarithms of both temperatures: one thermostat and one time of conditioning
+# hold the isotherm and the specimens on it. A judgement; the spreads of LABORATORY stay what they are.
+SAME_CONTROL = 0.7
 # Size of a discrepancy over the scatter of one test: scale of its half-Cauchy prior. What is common to all isotherms is
 # rarer than what breaks one: it must come from the machine.
 DISCREPANCY = {"isotherm": 0.5, "all": 0.1, "specimen": 0.3, "spectrum": 1.0}

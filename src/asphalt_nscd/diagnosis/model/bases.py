@@ -1,8 +1,9 @@
 """Laws of the mix against which causes are judged: parameters with priors, moduli with derivatives.
 
 A rig effect may not soak up the misfit of a parametric law, so the base is flexible: many Maxwell
-elements on reduced time, their logarithmic strengths smoothed, with a WLF shift of any curvature and a
-small smooth departure from it. Burgers at each temperature, the paper's law, has the same interface.
+elements on reduced time, their logarithmic strengths smoothed, with a WLF shift of any curvature, a bend where
+binders turn to glass and a small smooth departure. Burgers at each temperature, the paper's law, has the same
+interface.
 """
 
 from __future__ import annotations
@@ -34,10 +35,10 @@ class Base(Protocol):
 class FlexibleSpectrum:
     """Maxwell elements (m) on WLF-reduced time; tests reach `below` and `above` the reference [degC] in K.
 
-    Parameters x: ln strength (m), ln static modulus, ln slope, log-odds of the curvature, departure. By slope C1/C2 and
-    curvature 1/C2 a shift straight in T is nothing special; in C1 and C2 it lies at infinity, and an isotherm was said
-    to be off instead. `times` (m,) ascend, in s; `roughness` is the standard deviation of second differences of ln
-    strength; `ends_straight` says whether the tests come near the `static_modulus` [Pa].
+    Parameters x: ln strength (m), ln static modulus, bends, ln slope, log-odds of the curvature, departure. By slope
+    C1/C2 and curvature 1/C2 a shift straight in T is nothing special; in C1 and C2 it lies at infinity, and an isotherm
+    was said to be off instead. `times` (m,) ascend, in s; `roughness` is the standard deviation of second differences
+    of ln strength; `ends_straight` says whether the tests come near the `static_modulus` [Pa].
     """
 
     times: Vector
@@ -56,11 +57,16 @@ class FlexibleSpectrum:
     # Standard deviation of ln(a_T) off WLF this far from the reference [K], where the paper's tests end; it grows
     # with the cube. With 0.1 quadratic shifts are taken for a bias there, 0.3 hides one at the ends.
     DEPARTURE = 0.2, 25.0
+    # Below the temperature at which a binder turns to glass its shift is Arrhenius' (SHRP-A-369: WLF of 19 and 92 K
+    # above, 261 kJ/mol below): the second derivative of ln(a_T) falls by some 0.01 /K2 there. It lies between these
+    # temperatures [degC]; the standard deviation [1/K2] is for each.
+    GLASS = (10.0, 0.0, -10.0)
+    BEND = 3e-3
 
     @property
     def parameters(self) -> int:
         """Number p of parameters: strengths, static modulus and shift."""
-        return self.times.size + 4
+        return self.times.size + 4 + len(self.GLASS)
 
     @property
     def _curvatures(self) -> tuple[float, float]:
@@ -81,7 +87,7 @@ class FlexibleSpectrum:
         return least + width * share, width * share * (1.0 - share)
 
     def log_shift(self, x: Vector, temperature: Vector) -> tuple[Vector, NDArray]:
-        """ln a_T (n,) at temperatures (n,) in degC, and its derivative (n, 3) by the last three parameters."""
+        """ln a_T (n,) at temperatures (n,) in degC, and its derivative (n, 6) by the parameters of the shift."""
         curvature, change = self.curvature(x[-2])
         away = temperature - self.reference_temperature
         bent = away / (1.0 + curvature * away)
@@ -90,7 +96,10 @@ class FlexibleSpectrum:
         # odd in the distance, so that it bends both ends apart and leaves slope and curvature to the WLF
         # shift
         cubic = (away / self.DEPARTURE[1]) ** 3
-        return wlf + x[-1] * cubic, np.column_stack([wlf, -wlf * bent * change, cubic])
+        glass = -0.5 * self.BEND * np.minimum(temperature[:, None] - self.GLASS, 0.0) ** 2
+        bends = x[self.times.size + 1 : -3]
+        slopes = np.column_stack([glass, wlf, -wlf * bent * change, cubic])
+        return wlf + glass @ bends + x[-1] * cubic, slopes
 
     def modulus(self, x: Vector, omega: Vector, temperature: Vector) -> tuple[Complex, Complex]:
         """E* (n,) of the law [Pa] and its derivative (n, p); `omega` (n,) in rad/s, `temperature` (n,) in degC."""
@@ -112,13 +121,13 @@ class FlexibleSpectrum:
 
     def prior(self, x: Vector) -> tuple[Vector, NDArray]:
         """How far the law is from what mixes are: residuals (k,) in standard deviations, and derivative (k, p)."""
-        m = self.times.size
-        rows = np.zeros((m + 2, self.parameters))
+        m, bends = self.times.size, len(self.GLASS)
+        rows = np.zeros((m + 2 + bends, self.parameters))
         # second differences: a power law, whose spectrum is straight, costs nothing
         rows[: m - 2, :m] = np.diff(np.eye(m), 2, axis=0) / self.roughness
         if self.ends_straight:
             rows[m - 2 - self.SLOWEST : m - 2, :m] *= max(self.roughness / self.STRAIGHT, 1.0)
-        offset = np.zeros(m + 2)
+        offset = np.zeros(m + 2 + bends)
         # Broad: the static modulus anywhere from 1e-5 to 0.1 of the glassy one.
         level = float(np.log(np.exp(x[:m]).sum()))
         rows[m - 2, m], offset[m - 2] = 1.0 / 3.0, (level - 6.0) / 3.0
@@ -127,6 +136,7 @@ class FlexibleSpectrum:
         rows[m, -2] = self.curvature(usual)[1] / self.CURVATURE[1]
         offset[m] = rows[m, -2] * usual
         rows[m + 1, -1] = 1.0 / self.DEPARTURE[0]
+        rows[m + 2 :, m + 1 : -3] = np.eye(bends)
         return rows @ x - offset, rows
 
 

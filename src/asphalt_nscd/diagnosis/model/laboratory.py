@@ -15,16 +15,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from asphalt_nscd.diagnosis.criteria import LABORATORY
+from asphalt_nscd.diagnosis.criteria import LABORATORY, SAME_CONTROL
 from asphalt_nscd.diagnosis.model import discrepancy, likelihood
 from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
 from asphalt_nscd.diagnosis.model.joint import Fitted, Joint, Vector
 
 STEP = 0.05  # K or of ln time, of a derivative
-OF_FEW = (
-    "isotherm temperature",
-    "specimen times",
-)  # of which a table holds so few that one at fault enlarges them
+ISOTHERMS, SPECIMENS = "isotherm temperature", "specimen temperature"
+OF_FEW = (ISOTHERMS, "specimen times")  # of which a table holds so few that one at fault enlarges them
 FEW = 2
 
 
@@ -73,18 +71,28 @@ def of_laboratory(found: Processes) -> NDArray[np.bool_]:
 
 
 def without_one(found: Processes, fitted: Fitted, variances: Vector) -> Processes:
-    """The processes with sizes of OF_FEW known: those with one isotherm or specimen free, which may be at fault."""
+    """The processes with sizes of OF_FEW known, as they are where any one isotherm or specimen may be at fault."""
     model, usual, spread = likelihood.reduce(found, fitted), found.usual.copy(), found.spread.copy()
-    for k, one in enumerate(found.described):
+    kinds = [one.kind for one in found.described]
+    for k, kind in enumerate(kinds):
         columns = np.flatnonzero(found.block == k)
-        if one.kind in OF_FEW and columns.size > FEW:
-            free = likelihood.directions(model, fitted, found.factor[:, columns])
-            each = (
-                likelihood.estimate(model, free.column(at), variances).variances[k]
-                for at in range(columns.size)
-            )
-            usual[k], spread[k] = np.sqrt(min(each)), 0.0
+        if kind in OF_FEW and columns.size > FEW:
+            every = likelihood.directions(model, fitted, found.factor[:, columns])
+            free = [every.column(at) for at in range(columns.size)]
+            if kind == ISOTHERMS:
+                prior = _same_control(variances[kinds.index(SPECIMENS)])
+                variance = likelihood.mean_variance(model, free, k, prior, variances)
+            else:
+                variance = min(likelihood.estimate(model, one, variances).variances[k] for one in free)
+            usual[k], spread[k] = np.sqrt(variance), 0.0
     return replace(found, usual=usual, spread=spread)
+
+
+def _same_control(variance: float) -> tuple[float, float]:
+    """Usual size of isotherms' errors and spread of its logarithm, given the variance that specimens on them have."""
+    of_isotherms, of_specimens = LABORATORY[ISOTHERMS].spread, LABORATORY[SPECIMENS].spread
+    alike = SAME_CONTROL * of_isotherms / of_specimens * np.log(np.sqrt(variance))
+    return float(np.exp(alike)), of_isotherms * float(np.sqrt(1.0 - SAME_CONTROL**2))
 
 
 def inferred(found: Processes, variances: Vector) -> Laboratory:
@@ -112,8 +120,8 @@ def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, N
     mounted = np.eye(int(mounting.max()) + 1, dtype=complex)[mounting]
     observed, per_kelvin = joint.observed, _temperature_slope(joint, at.law)[:, None]
     roots = {
-        "isotherm temperature": per_kelvin * (observed.isotherm[:, None] == observed.isotherms),
-        "specimen temperature": per_kelvin * mounted,
+        ISOTHERMS: per_kelvin * (observed.isotherm[:, None] == observed.isotherms),
+        SPECIMENS: per_kelvin * mounted,
         "mounting, modulus": mounted,
         "mounting, phase": 1j * mounted,
     }

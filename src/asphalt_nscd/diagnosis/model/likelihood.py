@@ -7,6 +7,7 @@ estimate for one more cause costs milliseconds.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,6 +22,7 @@ Vector = NDArray[np.float64]
 
 UNKNOWN = 2.0  # standard deviation of the ln v that a table tells nothing of
 ITERATIONS = 25
+NODES = 7  # of Gauss and Hermite's rule, over the logarithm of a size
 # Far below the gain of 6 that a name asks for.
 CONVERGED = 0.05  # change of -2 ln likelihood
 
@@ -144,6 +146,27 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
         if gained < CONVERGED:
             break
     return Estimate(np.exp(log_v), now.misfit, now.amplitude, now.std_error)
+
+
+def mean_variance(
+    model: Reduced, free: Sequence[Direction], k: int, size: tuple[float, float], variances: Vector
+) -> float:
+    """Posterior mean of one variance where one of some directions is free, any of them as likely; others are given.
+
+    `size` is the usual size and the spread of its logarithm. A mean and no mode: few isotherms leave its size unknown.
+    """
+    nodes, weights = np.polynomial.hermite_e.hermegauss(NODES)
+    tried = (size[0] * np.exp(size[1] * nodes)) ** 2
+    log_weight = np.empty((len(free), NODES))
+    for row, one in enumerate(free):
+        for column, variance in enumerate(tried):
+            v = np.where(np.arange(variances.size) == k, variance, variances)
+            objective = _point(model, one, np.log(np.maximum(v, LEAST))).objective
+            log_weight[row, column] = np.log(weights[column]) - 0.5 * (
+                objective - model.processes.prior(v)[0]
+            )
+    share = np.exp(log_weight - log_weight.max())
+    return float((share @ tried).sum() / share.sum())
 
 
 def widen_error(model: Reduced, cause: Direction, found: Estimate) -> Estimate:

@@ -121,4 +121,5 @@ def _first_law(observed: Observations, base: FlexibleSpectrum, c1: float, c2: fl
     strength = np.log(1.2 * largest) + slope - np.log(np.exp(slope).sum())
     # Beyond the coldest test, where WLF would be singular.
     c2 = max(c2, base.below + 2.0 * CLEAR)
-    return np.concatenate([strength, [np.log(1e-3 * largest), np.log(c1 / c2), base.log_odds(1.0 / c2), 0.0]])
+    shift = [np.log(c1 / c2), base.log_odds(1.0 / c2), 0.0]
+    return np.concatenate([strength, [np.log(1e-3 * largest)], np.zeros(len(base.GLASS)), shift])
