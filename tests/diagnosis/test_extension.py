@@ -104,15 +104,21 @@ def test_a_file_that_is_no_diagnosis_is_refused(folder):
 def test_what_the_tests_do_not_determine_is_said():
     fit = Fit(LAW, None, 0.0, 10)
     assert left_to_priors(fit) == ("", [])
-    assert left_to_priors(replace(fit, from_prior=("glassy_modulus",))) == (
+    assert left_to_priors(replace(fit, unseen=("glassy_modulus",), from_prior=("glassy_modulus",))) == (
         "These tests do not determine the glassy modulus of law.json.",
         [
             "These tests do not determine the glassy modulus of law.json; there it has usual values of published "
             "asphalt concretes: glassy modulus 42 GPa."
         ],
     )
-    _, (said,) = left_to_priors(replace(fit, from_prior=("static_modulus", "c1", "c2")))
+    three = ("static_modulus", "c1", "c2")
+    _, (said,) = left_to_priors(replace(fit, unseen=three, from_prior=three))
     assert "do not determine the static modulus, C1 and C2 of law.json" in said
     assert said.endswith("asphalt concretes: static modulus 1 MPa, C1 12, C2 80 K.")
-    long = replace(fit, law=replace(LAW, beta=506.0), from_prior=("beta",))
+    long = replace(fit, law=replace(LAW, beta=506.0), unseen=("beta",), from_prior=("beta",))
     assert "beta 510." in left_to_priors(long)[1][0]
+
+
+def test_an_interval_of_a_factor_of_four_determines_nothing():
+    fit = Fit(LAW, {"k": 0.01, "static_modulus": 0.4 * LAW.static_modulus}, 0.0, 10)
+    assert left_to_priors(fit) == ("These tests do not determine the static modulus of law.json.", [])

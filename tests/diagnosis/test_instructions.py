@@ -261,6 +261,11 @@ def test_temperatures_that_certainty_lacks_lie_beyond_those_tested(tested, new):
     (order,) = fixed_orders.order_temperatures(replace(part, temperature=at, nominal_temperature=at), Costs())
     assert f"test specimens a and b at {new} degC, " in order["text"]
     assert fixed_orders.order_temperatures(table(4), Costs()) == []
+    poor = np.where(part.specimen == 0, 40.0, 20.0)
+    checked = replace(
+        part, temperature=at, nominal_temperature=at, quality={"deformation_uniformity_percent": poor}
+    )
+    assert fixed_orders.order_temperatures(checked, Costs())[0]["specimens"] == list(part.names[1:3])
 
 
 def test_gauges_are_checked_first_where_half_of_the_tests_exceed_a_limit():

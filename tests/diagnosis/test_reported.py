@@ -43,6 +43,22 @@ def test_a_covariance_that_rounding_leaves_indefinite_has_real_errors():
     assert standard_errors(np.array([[1.0, 1.0]]), whole) == pytest.approx([15.0**0.5], rel=1e-14)
 
 
+@pytest.mark.parametrize(("apart", "least", "most"), [(0.2, 0.01, 0.5), (2.0, 4.8, 5.2)])
+def test_the_phase_is_known_no_better_than_specimens_agree(apart, least, most):
+    """Three specimens of whose phases two are `apart` [deg] from the third: an interval of the mean by Student's t."""
+    rows = [
+        (s, t, f, np.abs(star) * 1e-6, np.degrees(np.angle(star)) + off)
+        for (s, off), t, f in product(
+            (("A", -apart), ("B", 0.0), ("C", apart)), (4.0, 12.0, 20.0, 30.0), (0.1, 1.0, 10.0)
+        )
+        for star in [complex(MIX.complex_modulus(2 * np.pi * f, t))]
+    ]
+    names = ["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
+    table = pd.DataFrame(rows, columns=names)
+    found = an.diagnose(table, measured_in="tension-compression", draws=an.Draws(500)).content["reported"]
+    assert least < 0.5 * (found["phase_high_deg"] - found["phase_low_deg"]) < most
+
+
 def test_the_mix_at_15_degrees_and_10_hertz(diagnosis):
     said = diagnosis.content["reported"]
     star = complex(MIX.complex_modulus(2 * np.pi * 10.0, 15.0))

@@ -23,6 +23,8 @@ from asphalt_nscd.rheology.spectrum import parameters
 SEED = 20200117  # of the random starts; any value, fixed so that a fit can be repeated
 STARTS = 24  # random ones: of a Burgers law one in five ends in another valley
 
+LOOSE = 0.35  # standard error over value, from which the ends of a 95 % interval are a factor of four apart
+
 Law = TypeVar("Law")
 Vector = NDArray[np.float64]
 
@@ -46,6 +48,10 @@ class Fit(Generic[Law]):
     covariance: NDArray | None = None
     response: NDArray | None = None
     of_prior: NDArray | None = None
+
+    @property
+    def undetermined(self) -> tuple[str, ...]:
+        """Parameters that the points do not determine, those held by a prior among them."""
 
     def restate(self, points: NDArray) -> Fit[Law]:
         """The same law, with the standard errors that follow from another covariance of the points.

@@ -142,7 +142,7 @@ def fit_content(fit: Fit[Spectrum], source: str, uncertainty: Uncertainty | None
         source=source,
         rms_log_residual=fit.rms_log_residual,
         std_error=fit.std_error,
-        unseen=fit.unseen,
+        unseen=fit.undetermined,
         from_prior=fit.from_prior,
         uncertainty=uncertainty,
     )

@@ -116,7 +116,9 @@ def order_temperatures(done: Observations, costs: Costs) -> Orders:
     new = [float(round(t)) for t in (*beyond, *between)][: max(LEAST_ISOTHERMS - tested.size, 0)]
     if not new:
         return []
-    names = list(done.names[:2])
+    beyond_limits = np.array([one.row for one in quality.exceeded(done)], np.int64)
+    poor = np.bincount(done.specimen[beyond_limits], minlength=len(done.names))
+    names = [done.names[k] for k in sorted(np.argsort(poor, kind="stable")[:2])]
     were = f"{counted(tested.size, 'temperature')} {'was' if tested.size == 1 else 'were'} tested"
     why = f"{were}. A fault can be proved from {LEAST_ISOTHERMS} on."
     purpose = f"because fewer than {LEAST_ISOTHERMS} temperatures cannot prove a fault"

@@ -11,6 +11,7 @@ from asphalt_nscd.diagnosis.observed.observations import Observations, Vector
 
 STATED = 10**6  # degrees of freedom of a scatter that is known
 SPECIMEN_SCALE = 0.03  # standard deviation of ln|E*| between specimens of one mix, worth SCALE_FREEDOM
+SPECIMEN_PHASE = float(np.radians(0.3))  # the same of the phase, two mountings of 0.2 deg
 FLOOR = 5e-4  # of ln|E*| and of the phase [rad]: no two tests repeat better
 UNEVEN = 1e-3  # chance below which isotherms are given a scatter each
 SCALE_FREEDOM = 8  # degrees of freedom against those of the table

@@ -127,19 +127,21 @@ def law_of_mix(
 
 def left_to_priors(fit: Fit) -> tuple[str, list[str]]:
     """What the tests do not determine of the law, in a sentence, and the note with its values; empty if nothing."""
-    names, sizes = [], []
+    terms = {name: TERMS.get(name, (name, "", 1.0)) for name in fit.undetermined}
+    if not terms:
+        return "", []
+
+    def said(names: Sequence[str]) -> str:
+        return f"These tests do not determine {joined([terms[name][0] for name in names])} of law.json"
+
+    sizes = []
     for name in fit.from_prior:
-        term, unit, factor = TERMS.get(name, (name, "", 1.0))
-        names.append(term)
+        term, unit, factor = terms[name]
         sizes.append(
             f"{term.removeprefix('the ')} {float(f'{factor * parameters(fit.law)[name]:.2g}'):g}{unit}"
         )
-    if not names:
-        return "", []
-    said = f"These tests do not determine {joined(names)} of law.json"
-    return f"{said}.", [
-        f"{said}; there it has usual values of published asphalt concretes: {', '.join(sizes)}."
-    ]
+    usual = f"{said(fit.from_prior)}; there it has usual values of published asphalt concretes: {', '.join(sizes)}."
+    return f"{said(list(terms))}.", [usual] * bool(sizes)
 
 
 def law_parameters(law: Mapping[str, Any]) -> dict[str, dict[str, Any]]:

@@ -107,10 +107,9 @@ def exceeds_scatter(content: Content) -> bool:
     return min(chances) <= 0.5 * ALPHA_PER_STEP
 
 
-def parts_left(content: Content, broken: Sequence[float] = ()) -> list[Content]:
-    """Parts of what no cause explains, largest first, but for those of isotherms [degC] that are told elsewhere."""
-    parts = [one for one in content["discrepancy"] if one["temperature_C"] not in broken]
-    return sorted(parts, key=lambda one: -float(one["size"]))
+def parts_left(content: Content) -> list[Content]:
+    """Parts of what no cause explains, largest first."""
+    return sorted(content["discrepancy"], key=lambda one: -float(one["size"]))
 
 
 def too_few_to_tell(content: Content, most: int) -> bool:
