@@ -51,7 +51,13 @@ class Fit(Generic[Law]):
 
     @property
     def undetermined(self) -> tuple[str, ...]:
-        """Parameters that the points do not determine, those held by a prior among them."""
+        """Parameters that the points do not determine: those `unseen`, and those known no better than LOOSE."""
+        errors = self.std_error or {}
+        return tuple(
+            name
+            for name, value in parameters(self.law).items()  # type: ignore[arg-type]
+            if name in self.unseen or errors.get(name, 0.0) > LOOSE * abs(value)
+        )
 
     def restate(self, points: NDArray) -> Fit[Law]:
         """The same law, with the standard errors that follow from another covariance of the points.
