@@ -55,7 +55,7 @@ class Fit(Generic[Law]):
         errors = self.std_error or {}
         return tuple(
             name
-            for name, value in parameters(self.law).items()  # type: ignore[arg-type]
+            for name, value in parameters(self.law).items()
             if name in self.unseen or errors.get(name, 0.0) > LOOSE * abs(value)
         )
 
