@@ -7,6 +7,7 @@ from dataclasses import replace
 import click
 import numpy as np
 import pytest
+from theory.specimens import save_specimen
 
 from asphalt_nscd.bending.bending_test import TestFiles, bond_law, run_test, simulate, unsettled
 from asphalt_nscd.bending.case import LoadCase, RunOptions
@@ -16,7 +17,7 @@ from asphalt_nscd.bending.model import Model, read_model
 from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.cli import group
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import load, save
+from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.signals import harmonic_response
 from asphalt_nscd.measurements.twopoint import complex_modulus
 from asphalt_nscd.nscd.bonds import implicit_operator as shifted
@@ -36,10 +37,7 @@ FREQUENCY, DT = 40.0, 1e-4
 def folder(tmp_path_factory, beam):
     """A specimen file, its models with free and blocked head, and a law file."""
     folder = tmp_path_factory.mktemp("bending")
-    arrays = {"position": beam.position, "radius": beam.radius}
-    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = beam.geometry.attributes() | {"area": beam.area}
-    save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    save_specimen(folder / "beam.h5", beam)
     for head in ("free", "blocked"):
         condense(folder / "beam.h5", Bonds(head), folder / f"{head}.h5")
     write_law(folder / "law.json", LAW, source="fitted", temperature=15.0)

@@ -6,6 +6,7 @@ from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
+from theory.specimens import save_specimen
 
 from asphalt_nscd.bending.bending_test import TestFiles, run_test, simulate
 from asphalt_nscd.bending.case import LoadCase
@@ -14,7 +15,7 @@ from asphalt_nscd.bending.model import read_model
 from asphalt_nscd.bending.rig import Rig, write_rig
 from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import load, save
+from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.twopoint import form_factor, mass_factor
 from asphalt_nscd.nscd.bonds.law import BondLaw
 from asphalt_nscd.rheology.chain import KelvinChain
@@ -31,10 +32,7 @@ LINEAR = Rig(
 def folder(tmp_path_factory, beam):
     """A model and the file of a chain law."""
     folder = tmp_path_factory.mktemp("rig")
-    arrays = {"position": beam.position, "radius": beam.radius}
-    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = beam.geometry.attributes() | {"area": beam.area}
-    save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    save_specimen(folder / "beam.h5", beam)
     condense(folder / "beam.h5", Bonds(), folder / "model.h5")
     write_chain(folder / "law.json", CHAIN, source="", temperature=15, error=0.0, lowest_hz=3, highest_hz=40)
     return folder

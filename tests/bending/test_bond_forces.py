@@ -4,20 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from theory.specimens import save_specimen
 
 import asphalt_nscd as an
 from asphalt_nscd.bending.case import LoadCase
 from asphalt_nscd.bending.settings import Numerics
-from asphalt_nscd.files.store import save
 
 
 @pytest.fixture(scope="module")
 def test(beam, tmp_path_factory):
     path = tmp_path_factory.mktemp("bonds") / "beam.h5"
-    arrays = {"position": beam.position, "radius": beam.radius}
-    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = beam.geometry.attributes() | {"area": beam.area}
-    save(path, "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    save_specimen(path, beam)
     law = an.Law.burgers(
         Em_Pa=24.3e9, eta_m_Pa_s=3.71e11, Ek_Pa=48.4e9, eta_k_Pa_s=0.773e11, temperature_C=15
     )

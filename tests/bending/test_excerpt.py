@@ -8,13 +8,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from theory.specimens import save_specimen
 
 from asphalt_nscd.bending.bending_test import TestFiles, read_subject, simulate
 from asphalt_nscd.bending.case import LoadCase
 from asphalt_nscd.bending.condensing import condense
 from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import load, save
+from asphalt_nscd.files.store import load
 from asphalt_nscd.nscd.stepping import bond_bounds
 from asphalt_nscd.nscd.stepping.bond_bounds import BeyondExcerpt, BondBounds
 from asphalt_nscd.nscd.stepping.break_modes import BONDS
@@ -28,10 +29,7 @@ LAW = Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9)
 def folder(tmp_path_factory, beam):
     """Models and excerpts, that list a few bonds only, of strong and of weak bonds, and a law."""
     folder = tmp_path_factory.mktemp("excerpt")
-    arrays = {"position": beam.position, "radius": beam.radius}
-    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = beam.geometry.attributes() | {"area": beam.area}
-    save(folder / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    save_specimen(folder / "beam.h5", beam)
     with pytest.MonkeyPatch.context() as patch:
         for name, count in (("LEADING", 6), ("OTHERS", 1), ("NARROW", 2)):
             patch.setattr(bond_bounds, name, count)

@@ -7,14 +7,14 @@ from xml.etree import ElementTree
 import numpy as np
 import pandas as pd
 import pytest
-from theory.specimens import QUICK_LAW, jittered_beam
+from theory.specimens import QUICK_LAW, jittered_beam, save_specimen
 
 import asphalt_nscd as an
 from asphalt_nscd.bending.fall import fell, released
 from asphalt_nscd.bending.further_settings import Fall
 from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.cli import main
-from asphalt_nscd.files.store import load, save
+from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.fourpoint import Beam
 
 
@@ -75,10 +75,7 @@ def test_both_pieces_come_to_rest(small):
 
 
 def test_a_fall_from_the_command_line_is_filmed(small, tmp_path):
-    arrays = {"position": small.position, "radius": small.radius}
-    arrays |= {f"network/{name}": value for name, value in small.network.arrays().items()}
-    attributes = small.geometry.attributes() | {"area": "facets"}
-    save(tmp_path / "s.h5", "specimen", arrays, attributes | {"density": small.density, "loose_grains": 0})
+    save_specimen(tmp_path / "s.h5", small)
     an.Law.burgers(Em_Pa=2e10, eta_m_Pa_s=4e9, Ek_Pa=4e10, eta_k_Pa_s=8e8, temperature_C=15).write(
         tmp_path / "l.json"
     )

@@ -22,7 +22,7 @@ def limits_of(joint, fitted, candidates):
     directions = chance.candidate_directions(joint, fitted, candidates)
     confined = np.array([isinstance(one.place, str) for one in candidates])
     found = chance.scores(joint, fitted, directions, confined)
-    return limits._of_scores(joint, fitted, candidates, found, THRESHOLD)
+    return limits._scored_limits(joint, fitted, candidates, found, THRESHOLD)
 
 
 @pytest.mark.parametrize("one", ACTIVE[:3], ids=lambda one: one.cause.name)
@@ -55,7 +55,7 @@ def test_what_cannot_be_seen_has_no_limit_and_is_told(fit):  # noqa: F811
     directions = chance.candidate_directions(joint, fitted, absent)
     found = chance.scores(joint, fitted, directions, np.array([False, True]))
     blind = replace(found, seen=np.array([True, False]))
-    sizes, unseen = limits._of_scores(joint, fitted, absent, blind, THRESHOLD)
+    sizes, unseen = limits._scored_limits(joint, fitted, absent, blind, THRESHOLD)
     assert [one.key for one in unseen] == [absent[1].key] and set(sizes) == {absent[0].key}
 
 
@@ -95,7 +95,7 @@ def test_the_law_is_fitted_again_where_it_leaves_less_than_a_twentieth_of_an_eff
 
     monkeypatch.setattr(limits, "_refit_ratio", by_refit)
     found = Scores(np.zeros(2), np.array([0.04, 0.06]) * square, np.ones(2, bool), np.eye(2))
-    sizes, _ = limits._of_scores(joint, fitted, absent, found, THRESHOLD)
+    sizes, _ = limits._scored_limits(joint, fitted, absent, found, THRESHOLD)
     assert refitted == [absent[0].key]
     for one, factor, information in zip(absent, (2.0, 1.0), found.information, strict=True):
         assert sizes[one.key] == pytest.approx(factor * THRESHOLD / np.sqrt(information) * one.typical[0])

@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.content.whole import Content
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
-from asphalt_nscd.diagnosis.search.told import Odd, at_frequency
+from asphalt_nscd.diagnosis.search.told import Odd, odd_frequency
 
 FEW = 500  # draws: what is tested here does not hang on the third digit of a chance
 CAUSES = {cause.name: cause for cause in EVERY}
@@ -135,21 +135,21 @@ def test_a_fault_is_written_as_the_schema_says_in_widened_intervals(key):
 
 def test_what_is_found_at_one_frequency_is_told_with_both_parts():
     at = Setting(25.0)
-    found = at_frequency(
+    found = odd_frequency(
         {("level at one frequency", at): (0.1, 0.01), ("offset at one frequency", at): (2.0, 0.3)},
         [odd("level at one frequency", at, 0.1, 0.01)],
     )
     one, twice = found.content(1.0), found.content(2.0)
     assert one["modulus_percent"] == pytest.approx(10.0) and one["phase_deg"] == pytest.approx(2.0)
     assert np.diff(twice["phase_interval_95"]) == pytest.approx(2.0 * np.diff(one["phase_interval_95"]))
-    assert at_frequency({}, [TOLD["odd_phases"]]) is None
+    assert odd_frequency({}, [TOLD["odd_phases"]]) is None
 
 
 def test_of_the_part_that_was_not_sought_nothing_is_known():
     """An offset at the highest of few frequencies looks like a delay, and may not be among what was estimated."""
     at = Setting(10.0)
     level = odd("level at one frequency", at, 0.1, 0.01)
-    low, high = at_frequency({("level at one frequency", at): (0.1, 0.01)}, [level]).content(1.0)[
+    low, high = odd_frequency({("level at one frequency", at): (0.1, 0.01)}, [level]).content(1.0)[
         "phase_interval_95"
     ]
     assert low < -20.0 and high > 20.0

@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from forks import forked
+from theory.specimens import save_specimen
 
 from asphalt_nscd.files.store import save, write_table
 from asphalt_nscd.rheology.burgers import Burgers
@@ -134,10 +135,7 @@ def test_what_is_absent_is_said(tmp_path, script, arguments, name):
 
 def test_stages_of_growth(tmp_path, beam):
     """A test on a specimen: each stage with its cost, and the modulus beside that of the law."""
-    arrays = {"position": beam.position, "radius": beam.radius}
-    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = beam.geometry.attributes() | {"area": beam.area}
-    save(tmp_path / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    save_specimen(tmp_path / "beam.h5", beam)
     write_law(
         tmp_path / "law.json", Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9), source="fitted", temperature=15.0
     )
@@ -258,10 +256,7 @@ def test_a_cycle_by_each_method(tmp_path, beam, monkeypatch, method):
     monkeypatch.syspath_prepend(str(BENCHMARKS))
     import growth
 
-    arrays = {"position": beam.position, "radius": beam.radius}
-    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = beam.geometry.attributes() | {"area": beam.area}
-    save(tmp_path / "beam.h5", "specimen", arrays, attributes | {"density": beam.density, "loose_grains": 0})
+    save_specimen(tmp_path / "beam.h5", beam)
     write_law(
         tmp_path / "law.json", Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9), source="fitted", temperature=15.0
     )

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy import sparse
 
+from asphalt_nscd.files.store import save
 from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.shape import Shape
 from asphalt_nscd.measurements.twopoint import Geometry
@@ -69,6 +72,14 @@ def jittered_beam(
         network = bond_network(position, radius, height, reach)
     density = geometry.mass / float((4 / 3 * np.pi * radius**3).sum())
     return Specimen(geometry, position, radius, density, network, 0, area)
+
+
+def save_specimen(path: str | Path, beam: Specimen) -> None:
+    """A file as `trim` writes it, of a beam that was not poured."""
+    arrays = {"position": beam.position, "radius": beam.radius}
+    arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
+    attributes = beam.geometry.attributes() | {"area": beam.area, "density": beam.density, "loose_grains": 0}
+    save(path, "specimen", arrays, attributes)
 
 
 def system_of(

@@ -30,7 +30,7 @@ Factor = Callable[[float, Observations], Complex | complex]
 Places = Callable[[Observations], Sequence[Place]]
 
 
-class OfOnePlace(Cause):
+class PlaceFault(Cause):
     """A fault that is told with its place; what it does is a factor of E*, or a rise of the temperature."""
 
     told = True
@@ -60,7 +60,7 @@ def specimens(observed: Observations) -> Sequence[Place]:
     return observed.names if len(observed.names) > 1 else ()
 
 
-def of_several_frequencies(observed: Observations) -> Sequence[Place]:
+def delayed_specimens(observed: Observations) -> Sequence[Place]:
     """Specimens; at one frequency a delay is an offset."""
     return specimens(observed) if observed.frequencies.size > 1 else ()
 
@@ -110,13 +110,13 @@ WARMER = Parameter(
     "temperature_rise", "K", -25.0, 25.0, 0.3
 )  # as far as isotherms whose files were exchanged
 OF_ONE_PLACE = (
-    OfOnePlace("offset of one specimen", ANGLE, Expected(0.1, 1.2), specimens, turned),
-    OfOnePlace("delay of one specimen", DELAY, Expected(0.03, 2.5e-4), of_several_frequencies, delayed),
-    OfOnePlace("offset of one isotherm", ANGLE, Expected(0.03, 1.2), isotherms, turned),
+    PlaceFault("offset of one specimen", ANGLE, Expected(0.1, 1.2), specimens, turned),
+    PlaceFault("delay of one specimen", DELAY, Expected(0.03, 2.5e-4), delayed_specimens, delayed),
+    PlaceFault("offset of one isotherm", ANGLE, Expected(0.03, 1.2), isotherms, turned),
     # One of a hundred sweeps.
-    OfOnePlace("temperature of one specimen on one isotherm", WARMER, Expected(0.15, 1.5), sweeps, unchanged),
-    OfOnePlace("level of one specimen on one isotherm", LEVEL, Expected(0.1, 0.25), sweeps, scaled),
-    OfOnePlace("offset of one specimen on one isotherm", ANGLE, Expected(0.06, 3.0), sweeps, turned),
-    OfOnePlace("level at one frequency", LEVEL, Expected(0.05, 0.08), ends, scaled),
-    OfOnePlace("offset at one frequency", ANGLE, Expected(0.05, 2.5), ends, turned),
+    PlaceFault("temperature of one specimen on one isotherm", WARMER, Expected(0.15, 1.5), sweeps, unchanged),
+    PlaceFault("level of one specimen on one isotherm", LEVEL, Expected(0.1, 0.25), sweeps, scaled),
+    PlaceFault("offset of one specimen on one isotherm", ANGLE, Expected(0.06, 3.0), sweeps, turned),
+    PlaceFault("level at one frequency", LEVEL, Expected(0.05, 0.08), ends, scaled),
+    PlaceFault("offset at one frequency", ANGLE, Expected(0.05, 2.5), ends, turned),
 )

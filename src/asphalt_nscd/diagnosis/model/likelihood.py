@@ -35,7 +35,7 @@ class Reduced:
     gram: NDArray
     along: Vector
 
-    def only(self, kept: NDArray[np.bool_]) -> Reduced:
+    def selected(self, kept: NDArray[np.bool_]) -> Reduced:
         """The same with some of the processes (m,) alone."""
         found, columns = self.processes, kept[self.processes.block]
         less = Processes(

@@ -25,7 +25,7 @@ from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.screening.within_isotherm import LooPrediction
 from asphalt_nscd.diagnosis.search.doubts import Key
 from asphalt_nscd.diagnosis.search.hypotheses import Hypothesis, hypotheses
-from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung, climb, without_law
+from asphalt_nscd.diagnosis.search.ladder import Ladder, Rung, climb, lawless
 from asphalt_nscd.diagnosis.settings import Draws
 from asphalt_nscd.diagnosis.written import shown
 from asphalt_nscd.measurements.reduction import require_enough
@@ -70,7 +70,7 @@ class Diagnosis:
 
     def established(self, rung: Rung) -> bool:
         """Whether the whole table carries a name and it has no rival, named or not; never of too few tests."""
-        stays = self._undisputed(rung) and not self._as_mixes_do(rung)
+        stays = self._undisputed(rung) and not self._is_as_of_mixes(rung)
         return not self.too_few and rung.probability >= NAMED and stays
 
     def probability(self, rung: Rung) -> float:
@@ -93,7 +93,7 @@ class Diagnosis:
         key = rung.candidate.key
         return sum(one.probability for one in self.hypotheses if key in {cause.key for cause in one.causes})
 
-    def _as_mixes_do(self, rung: Rung) -> bool:
+    def _is_as_of_mixes(self, rung: Rung) -> bool:
         """Whether a fault turns phases by no more than mixes that are not linear do."""
         candidate = next(one for one in self.ladder.fitted.active if one.key == rung.candidate.key)
         if not (candidate.cause.family and candidate.cause.alters_tests):
@@ -161,7 +161,7 @@ def diagnose(
             "The Burgers laws fit and no law common to all temperatures does: no cause is sought. What is reported of "
             "the mix follows a common law all the same, and is less certain than it says."
         )
-        ladder = without_law(baseline_joint, baseline, draws, seed)
+        ladder = lawless(baseline_joint, baseline, draws, seed)
     else:
         ladder = climb(begun, catalogue, draws, seed)
         noise = (ladder.end or begun).everyday.noise

@@ -111,17 +111,17 @@ def _rival_doubts(state: State, candidate: Candidate) -> Iterator[str]:
     if isinstance(candidate.place, float) and _followed(rest, direction):
         yield "A shift with temperature of unusual form looks the same"
 
-    def beside(along: NDArray | None, *roots: NDArray) -> Estimate:
+    def estimate(along: NDArray | None, *roots: NDArray) -> Estimate:
         return _estimate_beside(state, rest, along, roots)
 
-    alone = beside(direction)
+    alone = estimate(direction)
     observed, sigma = state.plain.observed, state.plain.noise.sigma
-    smooth = [beside(direction, sigma[0] * root, 1j * sigma[1] * root) for root in _smooth(observed)]
+    smooth = [estimate(direction, sigma[0] * root, 1j * sigma[1] * root) for root in _smooth(observed)]
     least = min(abs(one.z) for one in (alone, *smooth))
     known = [
         words
         for words, roots in _shaped(state.plain)
-        if beside(None, *roots).misfit < alone.misfit - TWENTY_TIMES
+        if estimate(None, *roots).misfit < alone.misfit - TWENTY_TIMES
     ]
     if known:
         alike = " or ".join(known)
@@ -138,7 +138,7 @@ def _rival_doubts(state: State, candidate: Candidate) -> Iterator[str]:
         parts = effect[:, None] * (label[:, None] == np.unique(label))
         parts = parts[:, np.abs(parts).max(axis=0) > 0.0]
         # Only where smooth rivals leave it enough: else weak evidence has been told already.
-        if parts.shape[1] > 1 and abs(beside(direction, parts).z) < ENOUGH <= least:
+        if parts.shape[1] > 1 and abs(estimate(direction, parts).z) < ENOUGH <= least:
             yield f"Its size may differ between {words}"
 
 

@@ -19,7 +19,7 @@ from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.search import limits, one_search
 from asphalt_nscd.diagnosis.search.doubts import Key, find_doubts
-from asphalt_nscd.diagnosis.search.told import AtFrequency, Odd, at_frequency, torn_isotherms
+from asphalt_nscd.diagnosis.search.told import Odd, OneFrequency, odd_frequency, torn_isotherms
 from asphalt_nscd.diagnosis.written import widening
 
 NAMES = frozenset(cause.name for cause in CATALOGUE)
@@ -77,7 +77,7 @@ class Ladder:
     torn: list[float] = field(default_factory=list)
     smallest: list[Odd] = field(default_factory=list)
     doubts: dict[Key, list[str]] = field(default_factory=dict)
-    at_highest: AtFrequency | None = None
+    at_highest: OneFrequency | None = None
     end: fit_beside.State | None = None
 
     @cached_property
@@ -143,7 +143,7 @@ class Ladder:
         return {process: size for process, size in self.discrepancy.items() if size > NOTICED}
 
 
-def without_law(joint: Joint, fitted: Fitted, draws: int, seed: int) -> Ladder:
+def lawless(joint: Joint, fitted: Fitted, draws: int, seed: int) -> Ladder:
     """Nothing is climbed where no law is common to all temperatures, against which a cause could be held."""
     return Ladder(joint, fitted, remaining=_remaining(joint, fitted, draws, np.random.default_rng(seed)))
 
@@ -162,9 +162,9 @@ def climb(begun: fit_beside.State, catalogue: Sequence[Cause], draws: int, seed:
         _take(ladder, begun, found, end, survey)
     ladder.doubts = find_doubts(end, ladder.named) | ladder.doubts
     ladder.hangs_on = {candidate.key: one_search.hangs_on(end, candidate) for candidate in ladder.named}
-    named, placed = survey.only(told=False), survey.only(told=True)
+    named, placed = survey.part(told=False), survey.part(told=True)
     ladder.limits, ladder.unseen, ladder.alike = limits.detection_limits(end, named, draws, random)
-    smallest = [Odd(*one) for one in limits.of_one_place(end, placed)]
+    smallest = [Odd(*one) for one in limits.place_limits(end, placed)]
     ladder.smallest = [one for one in smallest if not isinstance(one.candidate.place, Setting)]
     ladder.torn = torn_isotherms(end)
     sizes = np.sqrt(end.hidden).tolist()
@@ -205,7 +205,7 @@ def _take(
         ladder.rungs.append(rung)
         if len(rivals) < len(one.rivals):
             ladder.doubts[key] = ["A fault of one specimen, isotherm or frequency fits as well"]
-    ladder.at_highest = at_frequency(estimates, ladder.odd)
+    ladder.at_highest = odd_frequency(estimates, ladder.odd)
 
 
 def _remaining(joint: Joint, fitted: Fitted, draws: int, random: np.random.Generator) -> Remaining:

@@ -136,7 +136,7 @@ def detection_limits(
             errors[group] *= max(at_least, needed) / errors[k]
             simple[group] &= np.array(group) == k  # to refit the law beside each shape would take seconds
         found = Scores(np.zeros(errors.size), errors**-2, simple, correlation)
-        sizes, unseen = _of_scores(state.wide, state.fitted, surveyed.candidates, found, threshold + Z_95)
+        sizes, unseen = _scored_limits(state.wide, state.fitted, surveyed.candidates, found, threshold + Z_95)
         hidden = {one.key: one for one in surveyed.candidates if one.key in taken_up & sizes.keys()}
         unseen += hidden.values()
         sizes = {key: size for key, size in sizes.items() if key not in hidden}
@@ -148,7 +148,7 @@ def detection_limits(
     return sizes, unseen, alike
 
 
-def _of_scores(
+def _scored_limits(
     joint: Joint, fitted: Fitted, candidates: Sequence[Candidate], found: Scores, threshold: float
 ) -> tuple[dict[tuple, float], list[Candidate]]:
     """Amplitude found with 95 % probability by cause and place (enough for most shapes seen); causes never seen."""
@@ -226,7 +226,7 @@ def _alike(
     return list(out.values())
 
 
-def of_one_place(state: State, surveyed: Survey) -> list[tuple[Candidate, float]]:
+def place_limits(state: State, surveyed: Survey) -> list[tuple[Candidate, float]]:
     """Each fault of one place at its detection limit, where one may be so large, and its standard error."""
     if not surveyed.candidates:
         return []

@@ -77,7 +77,7 @@ class Survey:
     estimates: list[Estimate]
     one_sided: NDArray[np.bool_]
 
-    def only(self, told: bool) -> Survey:
+    def part(self, told: bool) -> Survey:
         """Those that are told with their place, or those that get a rung."""
         kept = [k for k, one in enumerate(self.candidates) if one.cause.told == told]
         pointing = self.pointing
@@ -171,7 +171,7 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     z = np.array([estimate.z for estimate in estimates])
     z = np.where(one_sided, np.maximum(z, 0.0), np.abs(z))
     gains = np.array([nothing.misfit - estimate.misfit for estimate in estimates])
-    by_chance = largest_by_chance(state, surveyed.only(told=False), draws, random)
+    by_chance = largest_by_chance(state, surveyed.part(told=False), draws, random)
     # Places are many, and the chance of a fault is shared by all of its own.
     named = float(np.quantile(by_chance, 1.0 - ALPHA_PER_STEP))
     least = np.where([one.cause.told for one in candidates], NEARLY_SURE, named)

@@ -81,7 +81,7 @@ class Odd:
 
 
 @dataclass(frozen=True)
-class AtFrequency:
+class OneFrequency:
     """What all tests at one frequency [Hz] are off by in ln|E*| and phase [rad], each with standard error."""
 
     frequency: float
@@ -103,7 +103,7 @@ class AtFrequency:
         }
 
 
-def at_frequency(estimates: Mapping[tuple, tuple[float, float]], found: list[Odd]) -> AtFrequency | None:
+def odd_frequency(estimates: Mapping[tuple, tuple[float, float]], found: list[Odd]) -> OneFrequency | None:
     """The likelier frequency at which something was found, by `estimates` of both parts there."""
     at = [one for one in found if isinstance(one.candidate.place, Setting)]
     if not at:
@@ -115,7 +115,7 @@ def at_frequency(estimates: Mapping[tuple, tuple[float, float]], found: list[Odd
         estimates.get((f"{part} at one frequency", place), (0.0, parameter.high))
         for part, parameter in (("level", LEVEL), ("offset", ANGLE))
     )
-    return AtFrequency(place.frequency, modulus, (float(np.radians(phase[0])), float(np.radians(phase[1]))))
+    return OneFrequency(place.frequency, modulus, (float(np.radians(phase[0])), float(np.radians(phase[1]))))
 
 
 def torn_isotherms(state: State) -> list[float]:
@@ -127,7 +127,7 @@ def torn_isotherms(state: State) -> list[float]:
         own = np.array([one.kind == "isotherm" and one.isotherm == t for one in described])
         if not own.any() or np.sqrt(whole[own].max()) < NOTICED:
             continue
-        less = likelihood.estimate(state.model.only(~own), None, whole[~own])
+        less = likelihood.estimate(state.model.selected(~own), None, whole[~own])
         if less.misfit - misfit > TORN:
             torn.append(float(t))
     return torn
