@@ -44,14 +44,15 @@ def test_job_too_short_to_be_measured_counts_as_none(tmp_path):
     assert rule_times(files(tmp_path), tmp_path).loc[0, ["cpu_s", "memory_MB"]].tolist() == [0.2, 50.0]
 
 
-def test_the_log_of_a_job_knows_its_cpu_time_best(tmp_path):
+def test_the_log_of_a_job_knows_its_cpu_time_and_memory_best(tmp_path):
     folder = tmp_path / "benchmarks"
     for name, seen in (("T10", 0.1), ("T15", 0.2), ("T20", "NA")):
         benchmark(folder / f"fit/{name}.tsv", 1.0, 50.0, seen)
         log = tmp_path / f"logs/fit/{name}.log"
         log.parent.mkdir(parents=True, exist_ok=True)
-        log.write_text("fitted\nCPU time: 0.75 s\n" if name != "T15" else "fitted\n")
-    assert rule_times(files(folder), folder).loc[0, "cpu_s"] == pytest.approx(1.7)
+        log.write_text("fitted\nCPU time: 0.75 s, memory: 120.5 MB\n" if name != "T15" else "fitted\n")
+    table = rule_times(files(folder), folder)
+    assert table.loc[0, ["cpu_s", "memory_MB"]].tolist() == [pytest.approx(1.7), 120.5]
 
 
 def test_time_elapsed_counts_jobs_side_by_side_once_and_no_pause(tmp_path):

@@ -38,7 +38,7 @@ BARE = find_spec("pandas") is None  # a Snakemake whose jobs have an environment
 
 from asphalt_nscd.files.commit import TOLD, commit
 from asphalt_nscd.nscd.core_cache import cache_base
-from asphalt_nscd.workflow_support import sources
+from asphalt_nscd.workflow_support import sources, warm
 from asphalt_nscd.workflow_support.lock import release_stale_locks
 
 ALONE = MAIN and workflow.is_main_process and release_stale_locks(".snakemake")
@@ -53,7 +53,8 @@ places = [str(beside), os.environ["PATH"]]
 SCRIPTS = CLONE or Path(".snakemake/fetched").resolve()  # holds studies/, whose scripts import each other
 searched = [str(SCRIPTS), str(CLONE / "src") if CLONE else "", os.environ.get("PYTHONPATH", "")]
 sources.STUDIES[:] = [SCRIPTS / "studies"]
-if CLONE and (DEPLOYED or not shutil.which("asphalt-nscd", path=beside)):
+STEPS = None if DEPLOYED else shutil.which("asphalt-nscd", path=beside)
+if CLONE and not STEPS:
     places.insert(0, str(CLONE / "workflow/scripts"))
 else:
     from asphalt_nscd.files.store import VERSIONS, package_versions

@@ -131,8 +131,17 @@ def _end(step: Callable[[], object]) -> NoReturn:
     status = _status(step)
     if os.environ.get(WITHIN_WORKFLOW) and not status:
         # For timings.csv: Snakemake looks at a job now and then, and misses what it takes after the last look.
-        click.echo(f"{CPU_TIME}{sum(os.times()[:4]):.2f} s", err=True)
+        click.echo(f"{CPU_TIME}{sum(os.times()[:4]):.2f} s, memory: {_most_memory():.1f} MB", err=True)
     sys.exit(status)
+
+
+def _most_memory() -> float:
+    """Largest resident set of this process, MB; 0 on Windows."""
+    try:
+        import resource
+    except ImportError:
+        return 0.0
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / (1e6 if sys.platform == "darwin" else 1e3)
 
 
 def _run(arguments: list[str]) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -15,9 +16,9 @@ def rule_times(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataF
     """One row for each rule, most time first.
 
     benchmarks: files in `folder`, rule.tsv for a single job, rule/.../*.tsv for many; those of jobs that
-    were never timed may be absent. The log of a job, in `logs` beside `folder`, ends with its CPU time; else that is
-    what Snakemake saw of it. Columns: rule, jobs, wall_s (sum over jobs), cpu_s, longest_s (a single job), memory_MB
-    (largest resident set), share_percent (of wall_s).
+    were never timed may be absent. The log of a job, in `logs` beside `folder`, ends with its CPU time and memory;
+    else they are what Snakemake saw of it. Columns: rule, jobs, wall_s (sum over jobs), cpu_s, longest_s (a single
+    job), memory_MB (largest resident set), share_percent (of wall_s).
     """
     logs = Path(folder).parent / "logs"
     rows = []
@@ -27,9 +28,9 @@ def rule_times(benchmarks: Iterable[str | Path], folder: str | Path) -> pd.DataF
         job = _job(path)
         # RULE.tsv, or a folder RULE with a file for each job.
         rule = path.relative_to(folder).parts[0].removesuffix(".tsv")
-        cpu = _told(logs / path.relative_to(folder).with_suffix(".log"))
-        seen = _number(job["cpu_time"])
-        rows.append((rule, _number(job["s"]), seen if cpu is None else cpu, _number(job["max_rss"])))
+        told = _told(logs / path.relative_to(folder).with_suffix(".log"))
+        seen = _number(job["cpu_time"]), _number(job["max_rss"])
+        rows.append((rule, _number(job["s"]), *(told or seen)))
     if not rows:
         raise InputError(f"{folder}: no benchmark files; run the workflow first.")
     jobs = pd.DataFrame(rows, columns=["rule", "s", "cpu", "memory"]).groupby("rule", as_index=False)
@@ -58,14 +59,14 @@ def elapsed(benchmarks: Iterable[str | Path]) -> float:
     return total
 
 
-def _told(log: Path) -> float | None:
-    """CPU time [s] at the end of a log."""
+def _told(log: Path) -> list[float]:
+    """CPU time [s] and memory [MB] at the end of a log; nothing where they are not there."""
     last = (
         log.read_text(encoding="utf-8", errors="replace").rstrip().rpartition("\n")[2]
         if log.is_file()
         else ""
     )
-    return float(last.removeprefix(CPU_TIME).split()[0]) if last.startswith(CPU_TIME) else None
+    return [*map(float, re.findall(r"[\d.]+", last))] if last.startswith(CPU_TIME) else []
 
 
 def _job(path: Path) -> dict[str, str]:
