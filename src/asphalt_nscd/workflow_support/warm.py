@@ -31,10 +31,10 @@ LONGEST = 2**18  # bytes, of the names of the modules that a step has loaded
 PACKAGE = str(Path(__file__).resolve().parents[1])
 
 
-def start(command: str) -> None:
+def start(command: str) -> subprocess.Popen[bytes] | None:
     """Start a warm process that ends with this one; the path then leads to the client in place of `command`."""
     if sys.platform != "linux":
-        return
+        return None
     folder = Path(tempfile.mkdtemp(prefix="asphalt-nscd-"))  # which no other user may enter
     client = Path(__file__).with_name("warm_client.py")
     words = [sys.executable, "-I", "-S", client, folder / ADDRESS, command]
@@ -47,6 +47,7 @@ def start(command: str) -> None:
     warm = subprocess.Popen(served, stdin=subprocess.PIPE, process_group=0)
     atexit.register(warm.communicate)
     os.environ["PATH"] = f"{folder}{os.pathsep}{os.environ['PATH']}"
+    return warm
 
 
 class Step(NamedTuple):
@@ -74,12 +75,12 @@ class Warm:
         self.listening.bind(os.path.join(folder, ADDRESS))
         self.listening.listen(100)
         self.loaded, self.load = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
-        self._watch(sys.stdin, self._stop)
-        self._watch(self.listening, self._begin)
-        self._watch(self.loaded, self._load)
 
     def serve(self) -> list[str]:
         """Fork for each client; the words of a step in its fork, none where standard input has ended."""
+        self._watch(sys.stdin, self._stop)
+        self._watch(self.listening, self._begin)
+        self._watch(self.loaded, self._load)
         while self.words is None:
             for key, _ in self.selector.select():
                 if self.words is None:
@@ -144,7 +145,8 @@ class Warm:
             held.close()
         folder, count, *told = os.fsdecode(request).split("\0")
         os.chdir(folder)
-        os.environ.update(variable.split("=", 1) for variable in told[int(count) :])
+        for name, _, value in (variable.partition("=") for variable in told[int(count) :]):
+            os.environ[name] = value
         for number, file in enumerate(files):
             os.dup2(file, number)
         sys.stdin, sys.stdout = open(0, closefd=False), open(1, "w", closefd=False)

@@ -39,7 +39,8 @@ def stand_for_it(connection: socket.socket) -> None:
         signal.signal(number, pass_on)
     ended = int.from_bytes(connection.recv(4) or b"\1", signed=True)
     if ended < 0:
-        signal.signal(-ended, signal.SIG_DFL)
+        if -ended in PASSED_ON:
+            signal.signal(-ended, signal.SIG_DFL)
         os.kill(os.getpid(), -ended)
     sys.exit(ended)
 
