@@ -1,1 +1,1 @@
-"""Locks, clocks and source stamps for Snakemake."""
+"""Locks, clocks, source stamps and a warm process for Snakemake."""
