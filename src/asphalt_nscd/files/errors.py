@@ -10,7 +10,7 @@ LONGEST = 1000  # characters of a message
 # Set by the workflow: a step must not outlive a killed Snakemake, which would run it a second time, and
 # a damaged result is set aside.
 WITHIN_WORKFLOW = "ASPHALT_NSCD_WITHIN_WORKFLOW"
-CPU_TIME = "CPU time: "  # begins the last line of the log of a job, with the seconds and the memory that it took
+CPU_TIME = "CPU time: "  # begins the last line of the log of a job, with what it took
 # Where the workflow, run at the top of the repository, puts what it makes, and what of it is committed.
 RESULTS, PUBLISHED = "results", "published"
 

@@ -184,18 +184,29 @@ def _written(file: str) -> int | None:
 
 def main(folder: str) -> None:
     """Serve; in a fork, run its step."""
+    status = 0
+
+    def leave() -> None:
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(status)  # else Python would touch, and so copy, all that it has loaded
+
+    atexit.register(leave)  # before all others, so that it is called after them
     warm = Warm(folder)
     sys.argv = warm.serve()
     if not sys.argv:
         shutil.rmtree(folder)
         return
     known = {*sys.modules}
+    status = 1
     try:
         runpy.run_path(sys.argv[0], run_name="__main__")
     except SystemExit as end:
-        if not end.code:
+        status = end.code if isinstance(end.code, int) else bool(end.code)
+        new = [name for name in sys.modules if name not in known]
+        if new and not status:
             with suppress(OSError):  # more than a message holds
-                warm.load.send(" ".join(name for name in sys.modules if name not in known).encode())
+                warm.load.send(" ".join(new).encode())
         raise
 
 
