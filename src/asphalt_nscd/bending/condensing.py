@@ -9,6 +9,7 @@ import numpy as np
 from asphalt_nscd.bending.excerpt import write_excerpt
 from asphalt_nscd.bending.model import SHAPE, model_of
 from asphalt_nscd.bending.settings import Bonds
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, save
 from asphalt_nscd.nscd.bonds.multigrid import Multigrid
 from asphalt_nscd.nscd.bonds.statics import static_stiffness
@@ -54,7 +55,7 @@ def condense(
 
 
 def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None = None) -> Content:
-    """Arrays and attributes of the model file of a specimen.
+    """Arrays and attributes of the model file of a specimen; InputError where its bonds leave some body free.
 
     `stand_by` bonds have directions ready for their break, those the driven motion breaks first; a test that breaks
     others finds theirs itself, for seconds. None: BONDS, but none of facets, which bear stress so evenly that they
@@ -64,7 +65,10 @@ def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None 
         specimen, bonds.poisson, bonds.yield_Pa, bonds.friction, bonds.head, kt_over_kn=bonds.kt_over_kn
     )
     g, shifted = system.operator, shifted_factor(system)
-    basis = ritz_basis(system, KRYLOV_STEPS, shifted)
+    try:
+        basis = ritz_basis(system, KRYLOV_STEPS, shifted)
+    except ArithmeticError as error:
+        raise InputError(f"{name}: {error}; raise gap_max_mm, or take a packing of more spheres.") from None
     arrays = {
         "basis": basis,
         "operator/indptr": g.indptr,
