@@ -57,6 +57,7 @@ class Baseline(TypedDict):
     p_value: Chance of a misfit as large by replicate scatter alone.
     mre_E_percent: Mean relative error of |E*| by temperature, as in Table 4.
     mre_phase_percent: Mean relative error of the phase by temperature, as in Table 4.
+    off_phase_deg: Mean error of the phase by temperature, degrees.
     """
 
     law: Literal["burgers"]
@@ -64,6 +65,7 @@ class Baseline(TypedDict):
     p_value: Probability
     mre_E_percent: dict[str, float]
     mre_phase_percent: dict[str, float]
+    off_phase_deg: NotRequired[dict[str, float]]
 
 
 class HeldOutGains(TypedDict):

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
 import pandas as pd
@@ -15,7 +14,10 @@ from matplotlib.lines import Line2D
 from asphalt_nscd.diagnosis.written import conditions, read_diagnosis, read_residuals
 from asphalt_nscd.reporting.figures import panels, style
 
-LINES: dict[str, dict[str, Any]] = {"before": {"lw": 0.7, "ls": (0, (2.5, 1.5))}, "after": {"lw": 1.0}}
+Looks: TypeAlias = dict[Any, tuple[Any, str]]
+Lines: TypeAlias = dict[str, dict[str, Any]]
+AFTER: Lines = {"after": {"lw": 1.0}}
+LINES: Lines = {"before": {"lw": 0.7, "ls": (0, (2.5, 1.5))}} | AFTER
 
 
 @style.journal
@@ -37,13 +39,7 @@ def draw(residuals: list[Path], diagnosis: list[Path]) -> Figure:
     return figure
 
 
-def black(
-    axes: Axes,
-    tests: pd.DataFrame,
-    means: pd.DataFrame,
-    looks: dict[Any, tuple[Any, str]],
-    lines: Sequence[str] = tuple(LINES),
-) -> None:
+def black(axes: Axes, tests: pd.DataFrame, means: pd.DataFrame, looks: Looks, lines: Lines = LINES) -> None:
     """Draw |E*| against phase: tests of each `group` by its colour and mark, and of `means` what `lines` name."""
     for name, rows in tests.groupby("group"):
         panels.points(axes, rows["phase_deg"], rows["E_MPa"] * 1e-3, looks[name], rows)
@@ -58,10 +54,10 @@ def _cole(rows: pd.DataFrame, end: str) -> tuple[np.ndarray, np.ndarray]:
     return star.real, star.imag
 
 
-def _modelled(axes: Axes, means: pd.DataFrame, plane: Any, lines: Sequence[str] = tuple(LINES)) -> None:
+def _modelled(axes: Axes, means: pd.DataFrame, plane: Any, lines: Lines = LINES) -> None:
     for _, rows in means.sort_values("frequency_Hz").groupby("temperature_C"):
-        for when in lines:
-            axes.plot(*plane(rows, f"_{when}"), color=style.INK, zorder=2, **LINES[when])
+        for when, look in lines.items():
+            axes.plot(*plane(rows, f"_{when}"), color=style.INK, zorder=2, **look)
 
 
 def keys(origin: str) -> list[Line2D]:

@@ -149,15 +149,13 @@ def _law(master: fig_master.Master) -> Chart:
 
 @style.journal
 def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
-    names = list(tests["specimen"].unique())
+    names, of_specimens = list(tests["specimen"].unique()), tests.assign(group=tests["specimen"])
     looks = dict(zip(names, style.kinds(len(names)), strict=True))
     plots = []
     for title, draw in (
         (
             "Black diagram",
-            lambda axes: fig_black.black(
-                axes, tests.assign(group=tests["specimen"]), means, looks, ["after"]
-            ),
+            lambda axes: fig_black.black(axes, of_specimens, means, looks, fig_black.AFTER),
         ),
         ("|E*|", lambda axes: _by_specimen(axes, tests, looks)),
     ):
