@@ -36,7 +36,7 @@ SIZE = 9.0  # points
 PALE = (238, 240, 243)
 # Rows of the answer that a client reads; the others tell the laboratory what to do next.
 FINDINGS = ("Data", "Fault", "Possible fault", "Effect", "Possible effect", "Scatter", "Law", "Unexplained")
-FOR_THE_LABORATORY = ("--", ".csv", "Use |E*|")  # sentences that tell it what to do
+FOR_THE_LABORATORY = ("--", ".csv", "can be used now")  # sentences that tell it what to do
 ROOM = "\N{NO-BREAK SPACE}\n" * 2  # for a name by hand
 ABREAST = 6  # specimens
 MARKS = {DOUBTFUL: " ?", HELD_BACK: " ??", LEFT_OUT: " X"}  # behind the result of a test
