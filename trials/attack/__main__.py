@@ -146,11 +146,11 @@ def nonlinear(parts: tuple[Path, ...], folder: Path) -> None:
 def power(parts: tuple[Path, ...], folder: Path) -> None:
     """Sizes that are named in half and in 19 of 20 tables of usual campaigns; two faults of a careful laboratory.
 
-    PARTS are those of limits and of careful laboratories.
+    Beside them stands the bound of any search. PARTS are those of limits and of careful laboratories.
     """
     from asphalt_nscd.files.store import write_table
 
-    from . import power
+    from . import bound, power
 
     stated, rows = (
         _together([path for path in parts if path.name.startswith(kind)]) for kind in ("limits", "careful")
@@ -159,6 +159,7 @@ def power(parts: tuple[Path, ...], folder: Path) -> None:
     write_table(folder / "power.csv", power.sizes(stated))
     write_table(folder / "power_cases.csv", rows)
     write_table(folder / "power_summary.csv", power.summary(rows))
+    write_table(folder / "power_bound.csv", bound.table())
 
 
 def _together(parts: Sequence[Path]) -> pd.DataFrame:

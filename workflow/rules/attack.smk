@@ -92,7 +92,7 @@ for name, (told, more, kinds, tables) in {
         "Say how small a fault is named in usual campaigns, and of a careful laboratory",
         "",
         ["limits", "careful"],
-        ("power", "power_limits", "power_cases", "power_summary"),
+        ("power", "power_limits", "power_cases", "power_summary", "power_bound"),
     ),
 }.items():
 

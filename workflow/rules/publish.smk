@@ -152,13 +152,14 @@ if ATTACK:
         [
             *(f"{name}.csv" for name in ATTACK_TABLES),
             *("figures/reliability.png", "campaign.json", "nonlinear.csv", "nonlinear_summary.csv"),
-            *("power.csv", "power_limits.csv", "power_cases.csv", "power_summary.csv"),
+            *("power.csv", "power_limits.csv", "power_cases.csv", "power_summary.csv", "power_bound.csv"),
         ],
         {
             "attack": "summary.csv",
             "nonlinear": "nonlinear_summary.csv",
             "power": "power.csv",
             "power_summary": "power_summary.csv",
+            "power_bound": "power_bound.csv",
         },
     )
     PUBLISHED["publish_machines"] = Published(
