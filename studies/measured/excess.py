@@ -86,7 +86,7 @@ def excess(population: str, mix: str, table: pd.DataFrame, mechanisms: Mechanism
         modulus_scatter, phase_scatter = (size / np.sqrt(count) for size in SCATTER)
         required = required_phase(frequency, log_modulus, modulus_scatter)
         whole = constant_excess(
-            frequency, np.array([log_modulus, phase]), np.array([modulus_scatter, phase_scatter]) ** 2, 0.0
+            frequency, np.array([log_modulus, phase]), np.array([modulus_scatter, phase_scatter]) ** 2
         )
         parts.append(
             pd.DataFrame(

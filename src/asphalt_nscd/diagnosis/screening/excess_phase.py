@@ -4,6 +4,9 @@ Modulus and phase of an isotherm are jointly normal (`kramers_kronig`); all its 
 which nothing is known before. The constant is found by generalised least squares, for each ripple of the law, and the
 ripples are weighed by their evidence. It says that something is there, not what: a delay shows in
 it too.
+
+How exact it is, the specimens tell. Each has an excess of its own, and mountings, which move all phases of a sweep or
+tilt its |E*|, make them differ by more than single tests do, most where a mix is soft.
 """
 
 from __future__ import annotations
@@ -22,9 +25,14 @@ from asphalt_nscd.diagnosis.screening.within_isotherm import blocks
 
 Vector = NDArray[np.float64]
 LEAST = 3  # frequencies; two tell a slope, but not whether it bends
-# Standard errors of the largest excess of a table from which it speaks for a mix that is not linear: of 40 drawn tables
-# without one, 39 stay below; the nine NCAT states have 3.7 to 12.
+# Standard errors of the largest excess of a table from which it speaks for a mix that is not linear: of 100 drawn
+# tables without one, 99 stay below; the nine NCAT states have 4.5 to 10.
 SPEAKS = 3.0
+# Before the specimens speak: ln of how far their excesses scatter, over what single tests alone make, and the growth of
+# that from the coldest to the warmest isotherm; mean and standard deviation. NCAT's specimens: -2 and 0 at 4 and
+# 40 degC.
+WIDER, GROWTH = (0.0, 0.7), (1.0, 0.7)
+NODES = np.linspace(-3.0, 3.0, 25)  # standard deviations
 
 
 @dataclass(frozen=True)
@@ -36,13 +44,27 @@ class ExcessPhase:
     std_error: float
 
 
+@dataclass(frozen=True)
+class _Alike:
+    """Specimens tested at the same frequencies: mean excess and that of `each` (s,) [rad], and variances [rad^2].
+
+    `law`: by what the band does not show of the mix; `single`: of one specimen, by chance of its single tests.
+    """
+
+    excess: float
+    law: float
+    single: float
+    each: Vector
+
+
 def excess_phases(observed: Observations, noise: Noise) -> list[ExcessPhase]:
     """The excess of each isotherm in which some specimen was tested at three frequencies or more."""
-    return [
-        ExcessPhase(float(temperature), *_combined(parts))
-        for temperature in observed.isotherms
-        if (parts := _sweeps(observed, noise, observed.isotherm == temperature))
-    ]
+    sweeps = {float(t): _sweeps(observed, noise, observed.isotherm == t) for t in observed.isotherms}
+    sweeps = {temperature: alike for temperature, alike in sweeps.items() if alike}
+    if not sweeps:
+        return []
+    wider = _wider(np.array([*sweeps]), [*sweeps.values()])
+    return [ExcessPhase(t, *_combined(alike, w)) for (t, alike), w in zip(sweeps.items(), wider, strict=True)]
 
 
 def shows_excess(observed: Observations, noise: Noise) -> bool:
@@ -53,61 +75,90 @@ def shows_excess(observed: Observations, noise: Noise) -> bool:
     return any(z > SPEAKS and min(found[k:]) > -SPEAKS for k, z in enumerate(found))
 
 
-def constant_excess(
-    frequency: Vector, mean: NDArray, variance: NDArray, shared: float
-) -> tuple[float, float]:
+def constant_excess(frequency: Vector, mean: NDArray, variance: NDArray) -> tuple[float, float]:
     """Excess and standard error [rad] of mean ln|E*| and phase (2, k) at k frequencies [Hz].
 
-    `variance` (2, k) of each mean; `shared` [rad^2] is what all phases have in common by chance.
+    `variance` (2, k) of each mean.
 
     >>> frequency = np.array([0.1, 1.0, 10.0])
     >>> power_law = np.array([0.3 * np.log(frequency), np.full(3, 0.3 * np.pi / 2 + 0.02)])
-    >>> round(constant_excess(frequency, power_law, np.full((2, 3), 1e-6), 0.0)[0], 3)
+    >>> round(constant_excess(frequency, power_law, np.full((2, 3), 1e-6))[0], 3)
     0.02
     """
-    k = frequency.size
+    alike = _excess_of(frequency, mean[None], variance)
+    return alike.excess, float(np.sqrt(alike.law + alike.single))
+
+
+def _excess_of(frequency: Vector, tests: NDArray, variance: NDArray) -> _Alike:
+    """Of ln|E*| and phase (s, 2, k) of specimens at k frequencies; `variance` (2, k) of each value."""
+    number, _, k = tests.shape
     # the level says nothing of the slope; centred, it costs no digits
-    values = np.concatenate([mean[0] - mean[0].mean(), mean[1]])
+    level = tests[:, :1].mean(axis=2, keepdims=True) * np.array([[1.0], [0.0]])
+    values = (tests - level).reshape(number, -1)
+    mean = values.mean(axis=0)
     phases = np.repeat([0.0, 1.0], k)
-    own = np.diag(np.maximum(variance.ravel(), ROUNDING**2))
-    precision = np.linalg.inv(_covariances(tuple(frequency)) + own)
+    own = np.maximum(variance.ravel() / number, ROUNDING**2)
+    precision = np.linalg.inv(_covariances(tuple(frequency)) + np.diag(own))
     information = phases @ precision @ phases
-    excess = phases @ precision @ values / information
-    misfit = values @ precision @ values - excess**2 * information
+    weight = phases @ precision / information[:, None]
+    excess = weight @ mean
+    misfit = mean @ precision @ mean - excess**2 * information
     evidence = np.log(WEIGHTS) + 0.5 * (np.linalg.slogdet(precision)[1] - misfit - np.log(information))
     share = np.exp(evidence - logsumexp(evidence))
     mean_excess = float(share @ excess)
-    spread = share @ (1.0 / information + (excess - mean_excess) ** 2)
-    return mean_excess, float(np.sqrt(spread + shared))
+    single = float(share @ weight**2 @ own)
+    spread = float(share @ (1.0 / information + (excess - mean_excess) ** 2))
+    return _Alike(mean_excess, max(spread - single, 0.0), number * single, values @ (share @ weight))
 
 
 _covariances = cache(covariances)  # isotherms and specimens share their frequencies
 
 
-def _sweeps(observed: Observations, noise: Noise, rows: NDArray[np.bool_]) -> list[tuple[float, float, int]]:
-    """Excess, standard error [rad] and number of the specimens that were tested at the same frequencies."""
-    alike: dict[tuple[float, ...], list[NDArray[np.int64]]] = {}
+def _sweeps(observed: Observations, noise: Noise, rows: NDArray[np.bool_]) -> list[_Alike]:
+    """The excess of an isotherm, for each set of frequencies; a specimen's sweeps at several amplitudes are one."""
+    alike: dict[tuple[float, ...], dict[int, list[NDArray[np.int64]]]] = {}
     sweep = blocks(observed)
     for number in np.unique(sweep[rows]):
         own = np.flatnonzero(sweep == number)
         own = own[np.argsort(observed.frequency[own])]
         frequencies = tuple(observed.frequency[own])
         if len(set(frequencies)) == len(frequencies) >= LEAST:
-            alike.setdefault(frequencies, []).append(own)
-    parts = []
-    for frequencies, members in alike.items():
-        tests, number = np.array(members), len(members)
-        logarithm = observed.logarithm[tests].mean(axis=0)
-        variance = (noise.within[:, tests] ** 2).mean(axis=1) / number
-        shared = float((noise.shared[1, tests] ** 2).mean()) / number
-        mean = np.array([logarithm.real, logarithm.imag])
-        parts.append((*constant_excess(np.array(frequencies), mean, variance, shared), number))
-    return parts
+            alike.setdefault(frequencies, {}).setdefault(observed.specimen[own[0]], []).append(own)
+    return [_of_specimens(observed, noise, *item) for item in alike.items()]
 
 
-def _combined(parts: list[tuple[float, float, int]]) -> tuple[float, float]:
-    """Mean and standard error, which does not fall with their number: what lies outside the band is one unknown."""
-    excess, std_error, number = np.array(parts).T
-    weight = number / std_error**2
+def _of_specimens(
+    observed: Observations,
+    noise: Noise,
+    frequencies: tuple[float, ...],
+    members: dict[int, list[NDArray[np.int64]]],
+) -> _Alike:
+    """Of specimens with their sweeps, each the rows (k,) of its tests."""
+    logarithm = np.array([observed.logarithm[sweeps].mean(axis=0) for sweeps in members.values()])
+    variance = [(noise.within[:, sweeps] ** 2).mean(axis=1) / len(sweeps) for sweeps in members.values()]
+    tests = np.stack([logarithm.real, logarithm.imag], axis=1)
+    return _excess_of(np.array(frequencies), tests, np.mean(variance, axis=0))
+
+
+def _wider(temperature: Vector, isotherms: list[list[_Alike]]) -> Vector:
+    """Variance (t,) of the specimens' excesses over that by single tests: from their scatter, and its prior."""
+    place = (temperature - temperature.min()) / (np.ptp(temperature) or 1.0) - 0.5 * (temperature.size > 1)
+    deviation = (mean + spread * NODES for mean, spread in (WIDER, GROWTH))
+    size, growth = np.meshgrid(*deviation, indexing="ij")
+    variance = np.exp(2.0 * (size + growth * place[:, None, None]))
+    evidence = -0.5 * (NODES[:, None] ** 2 + NODES**2)
+    for alike, own in zip(isotherms, variance, strict=True):
+        each = np.concatenate([one.each for one in alike])
+        weight = np.concatenate([np.full(one.each.size, 1.0 / one.single) for one in alike])
+        squares = weight @ (each - weight @ each / weight.sum()) ** 2
+        evidence -= 0.5 * ((each.size - 1) * np.log(own) + squares / own)
+    return np.tensordot(variance, np.exp(evidence - logsumexp(evidence)))
+
+
+def _combined(alike: list[_Alike], wider: float) -> tuple[float, float]:
+    """Mean and standard error; what lies outside the band is one unknown, whatever the number of specimens."""
+    excess, law, single = np.array([(one.excess, one.law, one.single / one.each.size) for one in alike]).T
+    weight = 1.0 / (law + wider * single)
     share = weight / weight.sum()
-    return float(share @ excess), float(share @ std_error)
+    variance = (share @ np.sqrt(law)) ** 2 + share**2 @ (wider * single)
+    return float(share @ excess), float(np.sqrt(variance))
