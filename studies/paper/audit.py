@@ -77,7 +77,7 @@ def findings(paths: Mapping[str, Any]) -> Iterable[Finding]:
         outcomes.samples(
             [deposit.attributes for deposit in deposits],
             [load(path, "specimen").attributes for path in paths["specimens"]],
-            [outcomes.moved_above(deposit.arrays) for deposit in deposits],
+            np.array([outcomes.moved_on_top(deposit.arrays) for deposit in deposits]),
         ),
         outcomes.numerics(tests, table["time_steps"], pd.read_csv(paths["costs"])),
         outcomes.profile(load(paths["profile"], "test").arrays),

@@ -31,7 +31,7 @@ LIFT = 4e-3  # m, difference of the largest and the smallest radius of Table 2
 SEGREGATED = 0.05  # of the height of the layer
 POISSON = 0.35
 DENSITY_TOLERANCE, COUNT_TOLERANCE = 0.03, 0.05
-TOP = 0.9  # share of what grains move that the upper half must have, where vibration acts on the top only
+LARGEST = 0.010  # m, diameter
 PAPER_COST = 2e-4  # CPU s per particle and step
 CYCLE_HZ = 10.0  # of the test whose cost is measured
 
@@ -54,11 +54,11 @@ def grading(curve: pd.DataFrame, diameter: np.ndarray, count: np.ndarray) -> Fin
 
 
 def samples(
-    deposits: Sequence[Mapping[str, Any]], specimens: Sequence[Mapping[str, Any]], moved: Sequence[float]
+    deposits: Sequence[Mapping[str, Any]], specimens: Sequence[Mapping[str, Any]], moved: np.ndarray
 ) -> Iterator[Finding]:
     """The poured and trimmed samples, from the attributes of their files.
 
-    moved: share of the squared displacements by vibration that the upper half of each layer has.
+    moved (n, 3): share of the squared displacements by vibration that the top of each layer has, see `moved_on_top`.
     """
     # The paper's layer has this many; what fewer spheres do says nothing of it.
     full = all(deposit["spheres"] == SPHERES for deposit in deposits)
@@ -67,7 +67,7 @@ def samples(
         yield replace(row, values=values, verdict=row.verdict if values["fewer"] is None else UNCHECKED)
 
 
-def _of_layers(deposits: Sequence[Mapping[str, Any]], moved: Sequence[float]) -> Iterator[Finding]:
+def _of_layers(deposits: Sequence[Mapping[str, Any]], moved: np.ndarray) -> Iterator[Finding]:
     height, poured, fraction, segregation = (
         float(np.mean([deposit[name] for deposit in deposits]))
         for name in ("layer_height_m", "poured_layer_height_m", "solid_fraction", "poured_segregation")
@@ -81,8 +81,9 @@ def _of_layers(deposits: Sequence[Mapping[str, Any]], moved: Sequence[float]) ->
     values["touched"] = min(deposit["periods_with_contact"] for deposit in deposits)
     values["overlap"] = max(deposit["largest_overlap_moving_m"] for deposit in deposits)
     yield Finding("layer", height, abs(height - LAYER) <= 0.01 * LAYER, values)
-    values = {"least": 100.0 * min(moved), "bound": 100.0 * TOP}
-    yield Finding("top_layers", 100.0 * float(np.mean(moved)), min(moved) > TOP, values)
+    shares = zip(("one", "two", "half"), 100.0 * np.asarray(moved).T, strict=True)
+    values = {name: spanned(share, ".0f") for name, share in shares}
+    yield Finding("top_layers", 100.0 * float(np.mean(moved, axis=0)[0]), values=values)
 
 
 def _of_specimens(specimens: Sequence[Mapping[str, Any]]) -> Iterator[Finding]:
@@ -101,11 +102,14 @@ def _of_specimens(specimens: Sequence[Mapping[str, Any]]) -> Iterator[Finding]:
     yield Finding("density", density, verdict, values | {"unreduced": density * (1.0 - REDUCTION)})
 
 
-def moved_above(deposit: Mapping[str, np.ndarray]) -> float:
-    """Share of the squared displacements from the poured to the vibrated layer that its upper half has."""
+def moved_on_top(deposit: Mapping[str, np.ndarray]) -> list[float]:
+    """Shares (3,) of the squared displacements from the poured to the vibrated layer: of one and of two layers of the
+    largest grains on top, and of the upper half.
+    """
     height = deposit["poured_position"][:, 2]
     moved = ((deposit["position"] - deposit["poured_position"]) ** 2).sum(axis=1)
-    return float(moved[height > 0.5 * height.max()].sum() / moved.sum())
+    depths = LARGEST, 2.0 * LARGEST, 0.5 * height.max()
+    return [float(moved[height > height.max() - depth].sum() / moved.sum()) for depth in depths]
 
 
 def bonds(readings: pd.DataFrame) -> Iterator[Finding]:

@@ -194,7 +194,7 @@ def test_counts_are_held_against_the_sieves_themselves():
 def test_counts_that_contradict_each_other():
     row = judgement(outcomes.lattice(COUNTS[1]))
     assert (row.ours, row.verdict) == (14160, INCONSISTENT) and "has 8000 cells" in row.evidence
-    rows = by_id(outcomes.samples([DEPOSIT], [SPECIMEN], [0.95]))
+    rows = by_id(outcomes.samples([DEPOSIT], [SPECIMEN], MOVED))
     assert "so 9558 of" in rows["particles_kept"].evidence
     assert rows["particles_kept"].verdict == rows["density"].verdict == INCONSISTENT
 
@@ -209,28 +209,33 @@ DEPOSIT = {
     "periods_with_contact": 28,
 }
 SPECIMEN = {"spheres": 9500, "density": 3850.0}
+MOVED = np.array([[0.3, 0.8, 0.95]])
 
 
 @pytest.mark.parametrize(
-    ("changed", "row"),
-    [({"layer_height_m": 0.0629}, "layer"), ({"poured_segregation": 0.3}, "segregation"), ({}, "top_layers")],
+    ("changed", "row"), [({"layer_height_m": 0.0629}, "layer"), ({"poured_segregation": 0.3}, "segregation")]
 )
-def test_a_layer_is_judged_by_its_height_its_grains_and_how_deep_it_moved(changed, row):
-    good = by_id(outcomes.samples([DEPOSIT, DEPOSIT], [SPECIMEN], [0.95, 0.95]))
-    bad = by_id(outcomes.samples([DEPOSIT, DEPOSIT | changed], [SPECIMEN], [0.95, 0.95 if changed else 0.8]))
-    names = ("layer", "segregation", "top_layers")
+def test_a_layer_is_judged_by_its_height_and_its_grains(changed, row):
+    moved = np.array([[0.3, 0.8, 0.95], [0.4, 0.7, 0.92]])
+    good = by_id(outcomes.samples([DEPOSIT, DEPOSIT], [SPECIMEN], moved))
+    bad = by_id(outcomes.samples([DEPOSIT, DEPOSIT | changed], [SPECIMEN], moved))
+    names = ("layer", "segregation")
     assert {good[name].verdict for name in names} == {REPRODUCED}
     assert {name for name in names if bad[name].verdict == DIFFERS} == {row}
+    top = good["top_layers"]
+    assert top.verdict == LEFT_OPEN and top.ours == pytest.approx(35.0)
+    assert "the top 10 mm have 30 to 40 %" in top.evidence and "the upper half 92 to 95 %" in top.evidence
 
 
 @pytest.mark.parametrize(("lift", "verdict"), [(0.049, REPRODUCED), (0.08, UNCHECKED), (-0.12, DIFFERS)])
 def test_what_size_alone_lifts_is_no_segregation(lift, verdict):
     """4 mm, the difference of the radii, are 0.063 of this layer."""
-    rows = by_id(outcomes.samples([DEPOSIT | {"poured_segregation": lift}], [SPECIMEN], [0.95]))
+    rows = by_id(outcomes.samples([DEPOSIT | {"poured_segregation": lift}], [SPECIMEN], MOVED))
     assert rows["segregation"].verdict == verdict and "up to 0.063 can be" in rows["segregation"].evidence
 
 
-def test_what_moves_in_the_upper_half():
-    poured = np.array([[0.0, 0.0, 0.01], [0.0, 0.0, 0.06]])
-    deposit = {"poured_position": poured, "position": poured + [[0.0, 0.0, -1e-3], [0.0, 3e-3, 0.0]]}
-    assert outcomes.moved_above(deposit) == pytest.approx(0.9)
+def test_what_moves_on_top():
+    poured = np.array([[0.0, 0.0, height] for height in (0.01, 0.035, 0.045, 0.06)])
+    moved = [[0.0, 0.0, -1e-3], [1e-3, 0.0, 0.0], [0.0, 1e-3, 0.0], [0.0, 3e-3, 0.0]]
+    deposit = {"poured_position": poured, "position": poured + moved}
+    assert outcomes.moved_on_top(deposit) == pytest.approx([9.0 / 12.0, 10.0 / 12.0, 11.0 / 12.0])
