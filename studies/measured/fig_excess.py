@@ -1,4 +1,4 @@
-"""The excess phase of measured mixes by temperature, and its parts one on another: two populations."""
+"""The excess phase of measured mixes by temperature, and what each mechanism predicts of it: two populations."""
 
 from pathlib import Path
 from typing import Any
@@ -12,14 +12,20 @@ from asphalt_nscd.reporting.figures import style
 from asphalt_nscd.reporting.figures.save import save_figure
 
 TITLES = {"ncat": "nine states, NCAT Test Track", "mixes50": "25 mixes, NCHRP 1-40D"}
-PARTS = {"reading": style.ORANGE, "contacts": style.BLUE, "softening": style.GREY}
+# `weak_films` are contacts once more, in place of the others
+PREDICTED = {
+    "reading": ("reading", style.ORANGE, "-"),
+    "contacts": ("contacts, films stiff in shear", style.BLUE, "-"),
+    "weak_films": ("contacts, films weak in shear", style.BLUE, style.DASHES[1]),
+    "softening": ("softening", style.GREY, style.DASHES[2]),
+}
 
 
 @style.journal
 def draw(excess: Path, budget: Path) -> Figure:
-    """Draw (a) the NCAT states and (b) the 25 mixes: each mix, mean with its standard error, and the parts."""
+    """Draw (a) the NCAT states and (b) the 25 mixes: each mix, mean with its standard error, and predictions."""
     points, means = pd.read_csv(excess), pd.read_csv(budget)
-    figure, panels = style.new_figure(style.WIDE, 70.0, columns=2)
+    figure, panels = style.new_figure(style.WIDE, 75.0, columns=2)
     for axes, panel, (population, title) in zip(panels, "ab", TITLES.items(), strict=True):
         _panel(axes, points[points["population"] == population], means[means["population"] == population])
         axes.set_xlabel("temperature (°C)")
@@ -33,16 +39,15 @@ def _panel(axes: Axes, points: pd.DataFrame, means: pd.DataFrame) -> None:
     mixes = points.groupby(["mix", "temperature_C"])["isotherm_deg"].first().reset_index()
     axes.axhline(0.0, color=style.GREY, lw=0.5, zorder=0)
     axes.plot(
-        mixes["temperature_C"], mixes["isotherm_deg"], "o", ms=2.0, color=style.GREY, alpha=0.6, label="a mix"
+        mixes["temperature_C"], mixes["isotherm_deg"], "o", ms=2.0, color=style.PALE, label="measured: a mix"
     )
     several = means[means["mixes"] > 2]
-    look: dict[str, Any] = {"color": style.INK, "marker": "o", "lw": 0.8, "label": "mean, its standard error"}
+    look: dict[str, Any] = {"color": style.INK, "fmt": "o", "lw": 0.8, "zorder": 3, "label": "measured: mean"}
     axes.errorbar(several["temperature_C"], several["measured_deg"], several["standard_error_deg"], **look)
-    below = 0.0 * several["reading_deg"]
-    for name, color in PARTS.items():
-        above = below + several[f"{name}_deg"]
-        axes.fill_between(several["temperature_C"], below, above, color=color, alpha=0.5, lw=0.0, label=name)
-        below = above
+    for name, (label, color, dashes) in PREDICTED.items():
+        axes.plot(
+            several["temperature_C"], several[f"{name}_deg"], color=color, linestyle=dashes, label=label
+        )
 
 
 def run(job: Any) -> None:

@@ -22,8 +22,9 @@ def reliability(table: pd.DataFrame) -> Figure:
         ends, ends - 5.0, ends + 5.0, color=style.INK, alpha=0.12, linewidth=0.0, label="within 5 points"
     )
     axes.errorbar(stated, right, yerr=reach, fmt="o", color=style.BLUE, label="found, with its 95 % interval")
-    for x, y, n in zip(stated, right, bins["n"], strict=True):
-        axes.annotate(f"{n}", (x, y), (-4, 4), textcoords="offset points", ha="right", fontsize=6.0)
+    for x, y, n in zip(stated, 100.0 * bins["low"], bins["n"], strict=True):
+        # at the lower end of its interval, where no other point is
+        axes.annotate(f"{n}", (x, y), (3, 1), textcoords="offset points", fontsize=6.0)
     axes.set_xlim(ends[0], 102.0)
     axes.set_ylim(0.0, 102.0)
     axes.set_xlabel("probability stated for a name (%)")
