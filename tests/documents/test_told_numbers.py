@@ -217,7 +217,18 @@ def test_laws_of_measured_mixes():
     assert f"temperatures by {one_law[0]} and {one_law[1]} %" in readme()
     assert f"read a haversine, by {as_run[0]} and {as_run[1]} % without a further parameter" in readme()
     out = table.left_out_isotherm_E_percent
-    assert f"by {out.burgers:.1f}, {out.one_law:.1f} and {out.as_run:.1f} % of |E\\*|" in readme()
+    phase = table.left_out_isotherm_phase_percent
+    told = " and ".join(
+        f"{row.burgers:.1f}, {row.one_law:.1f} and {row.as_run:.1f} % of {what}"
+        for row, what in ((out, "|E\\*|"), (phase, "the phase"))
+    )
+    assert f"miss by {told}: read so, the law extrapolates worse" in readme()
+    for missed in (out, phase):
+        assert missed.as_run > max(missed.one_law, missed.phase_offset) and "extrapolates worse" in page(
+            "measured"
+        )
+    rival = table.loc["phase_offset"]
+    assert f"constant instead by {rival.E_percent:.1f} and {rival.phase_percent:.1f} %" in readme()
     assert table.phase_percent["as_run"] < table.phase_percent["phase_offset"]
     assert table.E_percent["as_run"] < 1.01 * table.E_percent["phase_offset"]
 
@@ -277,12 +288,13 @@ def test_strains_that_contradict():
 
 def test_verdicts_on_the_paper():
     verdicts = published("paper/audit").verdict.value_counts()
+    untold = verdicts["left open"] + verdicts["cannot be checked"]
     told = (
         f"of {verdicts.sum()}, {verdicts.sum() - verdicts['not judged']} were judged; {verdicts['holds']} hold, "
         f"{verdicts['reproduced']} are reproduced, {verdicts['inconsistent in itself']} contradict themselves, "
-        f"{verdicts['differs']} differ from ours"
+        f"{verdicts['differs']} differ from ours; {untold} are left open or cannot be checked"
     )
-    assert told in readme()
+    assert told in readme() and verdicts.size == 7
 
 
 def test_page_one_tells_the_forecast_of_mixes_that_set_nothing():

@@ -44,7 +44,7 @@ SCRIPTED |= {
         MECHANISMS | {"ncat": MIXES, "mixes": "data/mixes50/modulus.csv"},
     ),
     "fig_excess": Scripted(
-        "Draw the excess phase of measured mixes by temperature, and its parts",
+        "Draw the excess phase of measured mixes by temperature, measured and predicted",
         "measured/fig_excess",
         dict(zip(("pdf", "png", "svg"), FIGURE_OF_EXCESS)),
         {name: f"results/measured/{name}.csv" for name in ("excess", "budget")},
