@@ -213,7 +213,7 @@ rule report:
             f"<results>/figures/{name}.png"
             for name in ("fig_residual_map", "fig10_extended" if COMMON_LAW else "fig10")
         ],
-        beside=[f"<results>/{name}.csv" for name in ("rivals", "ensemble") if name in PAGES],
+        beside=[f"<results>/{name}.csv" for name in ("rivals", "ensemble", "audit") if name in PAGES],
         code=code("report"),
         template=page_files("report.html", "first_page.html"),
     output:

@@ -87,6 +87,7 @@ def test_gains_on_tests_left_out_and_on_other_data_stand_beside(results, tmp_pat
     pd.DataFrame({f"{name}_percent": [value] for name, value in errors.items()}).to_csv(
         tmp_path / "ensemble.csv", index=False
     )
+    (tmp_path / "audit.csv").write_text("id,verdict\na,holds\nb,differs\nc,holds\n")
     (picture := tmp_path / "map.png").write_bytes(b"picture")
     (tmp_path / "samples.csv").write_text("sample,spheres,E_over_law\ns1,90,1.1\n")
     (path,) = results.ladder()
@@ -104,7 +105,7 @@ def test_gains_on_tests_left_out_and_on_other_data_stand_beside(results, tmp_pat
         results.diagnosis()["diagnosis"],
         [picture],
         [path],
-        [tmp_path / "rivals.csv", tmp_path / "ensemble.csv"],
+        [tmp_path / f"{name}.csv" for name in ("rivals", "ensemble", "audit")],
     )
     assert [row[:2] for row in said["left_out"]] == [
         ("temperatures between the ends", "0.3"),
@@ -119,6 +120,8 @@ def test_gains_on_tests_left_out_and_on_other_data_stand_beside(results, tmp_pat
         "of |E*| by 10.8 %",
         "By the likeliest of the readings tried, in one sample, it misses 3 % and 5 %",
         "<td>coldest and warmest</td>",
+        "Its 3 statements",
+        "holds 2, differs 1.",
     ):
         assert words in html, words
 

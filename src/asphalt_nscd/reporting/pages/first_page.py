@@ -47,8 +47,8 @@ def first_page(
     """What the template of the first page asks for.
 
     Each sequence holds one file; the PNG in `pictures` opens the page. `ladder` is ladder.csv, the errors of each
-    campaign. `beside` holds rivals.csv, the errors of tests left out, and ensemble.csv, the gain on data that meet the
-    paper's tables.
+    campaign. `beside` holds rivals.csv, the errors of tests left out, ensemble.csv, the gain on data that meet the
+    paper's tables, and audit.csv, the verdicts on its statements.
     """
     content = read_diagnosis(diagnosis)
     said = words(content, ladder)
@@ -63,6 +63,7 @@ def first_page(
     gained = _gained(way)
     longest = [max(float(row[n]) for row in gained) for n in (1, 2)]
     left_out = _left_out(way, [path for path in beside if path.stem == "rivals"])
+    audit = [path for path in beside if path.stem == "audit"]
     return {
         "content": content,
         "words": said,
@@ -96,6 +97,7 @@ def first_page(
         "left_out": left_out,
         "held_out": [] if left_out else [held_out(way, ends) for ends in (False, True)],
         "elsewhere": _on_other_data([path for path in beside if path.stem == "ensemble"]),
+        "verdicts": dict(_frame(audit, "audit")["verdict"].value_counts()) if audit else {},
         "pictures": [b64encode(path.read_bytes()).decode() for path in pictures],
     }
 
