@@ -78,7 +78,7 @@ def spectrum(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) ->
     """One 2S2P1D law for all temperatures, and how many parameters it has."""
     form = Form(shift="wlf" if np.unique(temperature).size > 2 else "arrhenius")
     law = fit_spectrum(omega, temperature, modulus, REFERENCE, form).law
-    return law, len(parameters(law)) + len(parameters(law.shift))
+    return law, len(parameters(law))
 
 
 def one_law(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> Fit:

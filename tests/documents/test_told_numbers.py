@@ -170,6 +170,19 @@ def test_no_row_of_the_verification_failed():
     assert "Rows that passed; none failed:" in page("core")
 
 
+def test_how_near_an_excess_can_be_found():
+    percent = published("excess/summary").set_index("what").percent.round().astype(int)
+    text = page("trust")
+    for of, said in (
+        ("that by the slope", "agrees in {} % of the isotherms, ours in {} %"),
+        ("none", "within 0.3° of none it is in {} %, ours in {} %"),
+    ):
+        own = f"excess within 0.3 deg of {of}"
+        assert said.format(percent[f"best possible {own}"], percent[own]) in text
+    half, quarter = (percent[f"the same, with {less} times these errors"] for less in (0.5, 0.25))
+    assert f"With half of these errors it would be in {half} %, with a quarter in {quarter} %" in text
+
+
 def test_what_the_attack_finds_inside_runs():
     cases = published("attack/inside").query("suite == 'inside'")
     told = f"{cases.named.sum()} of {len(cases)} faults of three limits are named, none wrongly"
