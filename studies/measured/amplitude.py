@@ -14,7 +14,7 @@ import pandas as pd
 from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.store import write_table
 from studies.measured.mechanisms import Mechanisms
-from studies.measured.stated import SEVERAL
+from studies.measured.stated import SEVERAL, SEVERAL_WEAK, WEAK
 
 MIX = 6e9 * np.exp(1j * np.radians(28.0))  # Pa, at 20 degC and 10 Hz: that of the uniaxial tests
 PER = 100e-6  # of strain
@@ -28,12 +28,19 @@ UNLIKELY = 2.0  # standard errors
 
 def predictions(mechanisms: Mechanisms) -> dict[str, complex]:
     """Change of ln E* by PER in tension-compression."""
-    of = mechanisms.contact
-    pulled = of[of["haversine"] == 0].sort_values("amplitude_1e6")
-    change = (pulled["lnE"] + 1j * np.radians(pulled["change_deg"])).diff().iloc[-1]
-    contacts = change / (SEVERAL[1] - SEVERAL[0]) * PER
+    contacts, weak = (
+        _of_contacts(mechanisms.contact, *pair) for pair in ((1.0, SEVERAL), (WEAK, SEVERAL_WEAK))
+    )
     softening = mechanisms.softening(np.array([MIX]), PER, "pulled")[0]
-    return {"reading": 0j, "contacts": contacts, "softening": softening, "all": contacts + softening}
+    parts = {"reading": 0j, "contacts": contacts, "softening": softening, "all": contacts + softening}
+    return parts | {"weak films": weak}
+
+
+def _of_contacts(table: pd.DataFrame, shear: float, amplitudes: tuple[float, float]) -> complex:
+    """The same among films of this stiffness in shear, between two amplitudes of strain."""
+    pulled = table[(table["haversine"] == 0) & np.isclose(table["shear"], shear)].sort_values("amplitude_1e6")
+    change = (pulled["lnE"] + 1j * np.radians(pulled["change_deg"])).diff().iloc[-1]
+    return complex(change / (amplitudes[1] - amplitudes[0]) * PER)
 
 
 def table(mechanisms: Mechanisms) -> pd.DataFrame:

@@ -32,7 +32,7 @@ from asphalt_nscd.rheology.as_run import Programme, modulus_as_read
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from studies.measured.cylinder import BOX, SPHERES
-from studies.measured.stated import AMPLITUDES, SEVERAL, WEAK
+from studies.measured.stated import AMPLITUDES, SEVERAL, SEVERAL_WEAK, WEAK
 
 SHARE = 0.38  # of the volume of a cylinder of full size: some 500 stones
 MODULI = 300e6, 500e6, 900e6, 1.8e9, 4e9, 9e9, 20e9  # Pa, of mixes of both populations but the softest
@@ -203,6 +203,8 @@ def tests() -> Iterator[Test]:
         yield Test(modulus, exponent, amplitude)
     for programme, amplitude in product((HAVERSINE, PULLED), SEVERAL):
         yield Test(6e9, 0.3, amplitude, programme)
+    for amplitude in SEVERAL_WEAK:
+        yield Test(6e9, 0.3, amplitude, PULLED, WEAK)
     for (pressure, friction), modulus in product(DOUBTS, (900e6, 4e9)):
         yield Test(modulus, 0.3, AMPLITUDES["ncat"], pressure=pressure, friction=friction)
     for amplitude, modulus, exponent in product(AMPLITUDES.values(), WITH_WEAK_FILMS, EXPONENTS):
