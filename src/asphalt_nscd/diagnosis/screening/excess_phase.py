@@ -26,7 +26,7 @@ from asphalt_nscd.diagnosis.screening.within_isotherm import blocks
 Vector = NDArray[np.float64]
 LEAST = 3  # frequencies; two tell a slope, but not whether it bends
 # Standard errors of the largest excess of a table from which it speaks for a mix that is not linear: of 100 drawn
-# tables without one, 99 stay below; the nine NCAT states have 4.5 to 10.
+# tables without one, 99 stay below; the nine NCAT states have 4 to 9.
 SPEAKS = 3.0
 # Before the specimens speak: ln of how far their excesses scatter, over what single tests alone make, and the growth of
 # that from the coldest to the warmest isotherm; mean and standard deviation. NCAT's specimens: -2 and 0 at 4 and
