@@ -82,8 +82,8 @@ def _of_layers(deposits: Sequence[Mapping[str, Any]], moved: np.ndarray) -> Iter
     values["overlap"] = max(deposit["largest_overlap_moving_m"] for deposit in deposits)
     yield Finding("layer", height, abs(height - LAYER) <= 0.01 * LAYER, values)
     shares = zip(("one", "two", "half"), 100.0 * np.asarray(moved).T, strict=True)
-    values = {name: spanned(share, ".0f") for name, share in shares}
-    yield Finding("top_layers", 100.0 * float(np.mean(moved, axis=0)[0]), values=values)
+    told = {name: spanned(share, ".0f") for name, share in shares}
+    yield Finding("top_layers", 100.0 * float(np.mean(moved, axis=0)[0]), values=told)
 
 
 def _of_specimens(specimens: Sequence[Mapping[str, Any]]) -> Iterator[Finding]:

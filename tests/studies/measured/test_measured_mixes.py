@@ -72,7 +72,9 @@ def test_an_offset_is_found_and_a_law_alone_needs_none():
     turned = table(lambda t, f: true(t, f) * np.exp(1j * np.radians(1.5)))
     fit = RUNGS["phase_offset"](*averages(turned))
     assert errors(fit.modulus, turned).max() < 0.2
-    assert fit.fitted == 10 and RUNGS["one_law"](*averages(turned)).fitted == 9  # seven of 2S2P1D and two of WLF
+    assert (
+        fit.fitted == 10 and RUNGS["one_law"](*averages(turned)).fitted == 9
+    )  # seven of 2S2P1D and two of WLF
     assert errors(RUNGS["one_law"](*averages(table(true))).modulus, table(true)).max() < 0.05
 
 
