@@ -8,9 +8,9 @@ import pytest
 from naive.prony import CAMPAIGN, SPECTRA
 
 from asphalt_nscd import cli
-from asphalt_nscd.exports.card import Settings
 from asphalt_nscd.exports.export import export_law
 from asphalt_nscd.exports.law import read_law_file
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import write_json
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
@@ -87,6 +87,6 @@ def test_parameters_that_the_tests_do_not_determine_are_named(tmp_path):
     read = read_law_file(tmp_path / "law.json", *CAMPAIGN)
     assert read.loose().startswith("The tests do not determine beta:")
     for form, name in (("csv", "law.csv"), ("mepdg", "E.csv")):
-        export_law(read, Settings(), form, tmp_path / name)
+        export_law(read, ExportSettings(), form, tmp_path / name)
         joined = re.sub(r"\n#\s+", " ", (tmp_path / name).read_text())
         assert read.loose() in joined

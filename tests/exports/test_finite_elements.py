@@ -9,9 +9,10 @@ import pytest
 from naive.finite_elements import abaqus_modulus, ansys_modulus, comsol_modulus
 from naive.prony import ROOT, SPECTRA, assert_within, stated
 
-from asphalt_nscd.exports.card import UNITS, Settings, make_card
+from asphalt_nscd.exports.card import make_card
 from asphalt_nscd.exports.export import export_law
 from asphalt_nscd.exports.law import read_law_file, wlf_of
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.chain_law import chain_law
@@ -21,7 +22,7 @@ from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.shift import Arrhenius
 from asphalt_nscd.rheology.spectrum_io import write_spectrum
 
-SETTINGS = [Settings(), Settings(Miss(0.3, 0.1), 0.2, UNITS["mm-N-MPa"], "BASE_2")]
+SETTINGS = [ExportSettings(), ExportSettings(0.3, 0.1, 0.2, "mm-N-MPa", "BASE_2")]
 
 
 READERS = {
@@ -40,7 +41,8 @@ def test_a_law_of_all_temperatures_comes_back_within_the_stated_error(spectrum, 
     text = (tmp_path / name).read_text()
     stress = {"Pa": 1.0, "MPa": 1e6}[re.search(r"Units: m+, N, s, (M?Pa);", text)[1]]
     found = modulus(text, temperature, frequency, stress)
-    assert_within(found, law.complex_modulus(2 * np.pi * frequency, temperature), text, settings.allowed)
+    allowed = Miss(settings.error_percent, settings.error_deg)
+    assert_within(found, law.complex_modulus(2 * np.pi * frequency, temperature), text, allowed)
     assert stated(line) == stated(text)
     assert text.isascii()
     assert ("assumed" if settings.poisson is None else "as stated by --poisson") in text
@@ -52,7 +54,7 @@ def test_the_laws_of_table_3_come_back(tmp_path, form):
     name, modulus = READERS[form]
     for temperature, law in zip(*read_published(ROOT / "data/paper/table3_burgers.csv")):
         write_law(tmp_path / "law.json", law, source="published", temperature=temperature)
-        export_law(read_law_file(tmp_path / "law.json"), Settings(), form, tmp_path / name)
+        export_law(read_law_file(tmp_path / "law.json"), ExportSettings(), form, tmp_path / name)
         text = (tmp_path / name).read_text()
         assert f"Holds at {temperature:g} degC only" in text
         assert "TRS" not in text and "SHIFT" not in text and "Tref" not in text
@@ -66,12 +68,12 @@ def test_a_bond_law_of_the_extended_simulation_comes_back(tmp_path):
     write_spectrum(tmp_path / "law.json", law, source="fitted", rms_log_residual=0.03)
     chain_law(tmp_path / "law.json", 21.0, 1.0, 50.0, 1e-3, 0.9, tmp_path / "f10.json")
     read = read_law_file(tmp_path / "f10.json")
-    export_law(read, Settings(), "abaqus", tmp_path / "law.inp")
+    export_law(read, ExportSettings(), "abaqus", tmp_path / "law.inp")
     text = (tmp_path / "law.inp").read_text()
     frequency = np.geomspace(1.0, 50.0, 9)
     found = abaqus_modulus(text, np.full(9, 21.0), frequency, 1.0)
     wanted = 0.9 * law.complex_modulus(2 * np.pi * frequency, 21.0)
-    np.testing.assert_allclose(found, wanted, rtol=2e-3 if make_card(read, Settings()).exact else 1e-2)
+    np.testing.assert_allclose(found, wanted, rtol=2e-3 if make_card(read, ExportSettings()).exact else 1e-2)
 
 
 def test_an_arrhenius_shift_is_a_wlf_shift():
@@ -84,4 +86,4 @@ def test_a_spring_alone_is_refused(tmp_path):
     path, spring = tmp_path / "law.json", KelvinChain(1e10, np.inf, (), ())
     write_chain(path, spring, source="x", temperature=15.0, error=0.0, lowest_hz=1.0, highest_hz=10.0)
     with pytest.raises(InputError, match="does not relax"):
-        export_law(read_law_file(path), Settings(), "abaqus", tmp_path / "law.inp")
+        export_law(read_law_file(path), ExportSettings(), "abaqus", tmp_path / "law.inp")

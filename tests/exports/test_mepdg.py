@@ -9,10 +9,10 @@ import pandas as pd
 import pytest
 from naive.prony import ROOT, SPECTRA
 
-from asphalt_nscd.exports.card import Settings
 from asphalt_nscd.exports.export import export_law
 from asphalt_nscd.exports.formats.mepdg import FREQUENCIES, TEMPERATURES_F
 from asphalt_nscd.exports.law import read_law_file
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.laws_io import write_law
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
@@ -25,13 +25,13 @@ def exported(folder, law, temperatures, frequencies):
     """What the command says; the table, of which the comments are joined to one line, is E.csv."""
     write_spectrum(folder / "law.json", law, source="fitted", rms_log_residual=0.03)
     read = read_law_file(folder / "law.json", temperatures, frequencies)
-    line = export_law(read, Settings(), "mepdg", folder / "E.csv")
+    line = export_law(read, ExportSettings(), "mepdg", folder / "E.csv")
     return line, re.sub(r"\n#\s+", " ", (folder / "E.csv").read_text())
 
 
 def test_the_table_of_aashtoware(spectrum, tmp_path):
     read, law, _ = spectrum
-    line = export_law(read, Settings(), "mepdg", tmp_path / "E.csv")
+    line = export_law(read, ExportSettings(), "mepdg", tmp_path / "E.csv")
     text = (tmp_path / "E.csv").read_text()
     table = pd.read_csv(tmp_path / "E.csv", comment="#", index_col="temperature_F")
     assert table.index.tolist() == [14, 40, 70, 100, 130]
@@ -73,7 +73,7 @@ def test_one_temperature_is_not_enough_for_aashtoware_nor_takes_others(tmp_path)
     temperatures, laws = read_published(ROOT / "data/paper/table3_burgers.csv")
     write_law(tmp_path / "law.json", laws[0], source="published", temperature=temperatures[0])
     with pytest.raises(InputError, match="this table has five"):
-        export_law(read_law_file(tmp_path / "law.json"), Settings(), "mepdg", tmp_path / "E.csv")
+        export_law(read_law_file(tmp_path / "law.json"), ExportSettings(), "mepdg", tmp_path / "E.csv")
     with pytest.raises(InputError, match="leave out --temperatures-c"):
         read_law_file(tmp_path / "law.json", (0.0, 10.0))
 

@@ -10,8 +10,9 @@ import pandas as pd
 import pytest
 
 import asphalt_nscd as an
-from asphalt_nscd.exports.card import Settings, make_card
+from asphalt_nscd.exports.card import make_card
 from asphalt_nscd.exports.law import read_law_file
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import read_json, write_json
 from asphalt_nscd.measurements.units import PSI
@@ -53,7 +54,9 @@ def drawn(fit, count=400):
 
 def test_moduli_of_the_series_scatter_as_told(fitted):
     path, fit = fitted
-    card = make_card(read_law_file(path, TESTED["temperatures_C"], TESTED["frequencies_Hz"]), Settings())
+    card = make_card(
+        read_law_file(path, TESTED["temperatures_C"], TESTED["frequencies_Hz"]), ExportSettings()
+    )
     omega = np.geomspace(*card.law.reduced_band(), 200)
     turned = 1j * omega[:, None] * np.array(card.series.times)
     branches = np.hstack([np.ones((omega.size, 1)), turned / (1 + turned)])
@@ -76,7 +79,7 @@ def test_few_freedoms_widen_by_students_factor(fitted, tmp_path):
     write_json(tmp_path / "law.json", fit_content(fit, "fitted", Uncertainty(fit.covariance, (40.0, 3.0))))
     few, many = (
         make_card(
-            read_law_file(one, TESTED["temperatures_C"], TESTED["frequencies_Hz"]), Settings()
+            read_law_file(one, TESTED["temperatures_C"], TESTED["frequencies_Hz"]), ExportSettings()
         ).half_widths
         for one in (tmp_path / "law.json", path)
     )

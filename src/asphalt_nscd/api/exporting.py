@@ -9,12 +9,10 @@ from typing import TYPE_CHECKING
 from asphalt_nscd.api.arguments import checked
 from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.results import Result
-from asphalt_nscd.exports.card import UNITS, Settings
 from asphalt_nscd.exports.export import export_law, require_form
 from asphalt_nscd.exports.law import law_of, read_law_file
 from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.rheology.maxwell_fitting import Miss
 
 if TYPE_CHECKING:
     from asphalt_nscd.api.diagnosis import Diagnosis
@@ -67,12 +65,12 @@ def export(
     # By the ending, for a law is JSON and a result HDF5.
     if isinstance(law, Result) or Path(str(law)).suffix.lower() in (".h5", ".hdf5"):
         return _export_result(law, output, form)
-    card, tested = _card_settings(settings), (temperatures_C, frequencies_Hz)
+    tested = temperatures_C, frequencies_Hz
     require_form(form, Path(output))
     if isinstance(law, str | Path):
-        return export_law(read_law_file(law, *tested), card, form, output)
+        return export_law(read_law_file(law, *tested), settings, form, output)
     if isinstance(law, Law):
-        return export_law(law_of(law.source, dict(law.content), *tested), card, form, output)
+        return export_law(law_of(law.source, dict(law.content), *tested), settings, form, output)
     from asphalt_nscd.api.diagnosis import Diagnosis
 
     if not isinstance(law, Diagnosis):
@@ -83,7 +81,7 @@ def export(
         raise InputError("a diagnosis of one isotherm has no law; diagnose tests at more temperatures.")
     with TemporaryDirectory() as folder:  # the export finds the tests beside the law
         law.write(folder)
-        return export_law(read_law_file(Path(folder, "law.json"), *tested), card, form, output)
+        return export_law(read_law_file(Path(folder, "law.json"), *tested), settings, form, output)
 
 
 def _export_result(result: Result | str | Path | Law | Diagnosis, output: str | Path, form: str) -> str:
@@ -95,8 +93,3 @@ def _export_result(result: Result | str | Path | Law | Diagnosis, output: str | 
         path = Path(folder, "result.h5")
         result.write(path)
         return export_result(path, form, output)
-
-
-def _card_settings(said: ExportSettings) -> Settings:
-    """The same as the exports take it."""
-    return Settings(Miss(said.error_percent, said.error_deg), said.poisson, UNITS[said.units], said.name)

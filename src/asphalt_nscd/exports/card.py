@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd import __version__
 from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.exports.settings import UNITS, ExportSettings, Units
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.templates import items, template
 from asphalt_nscd.files.words import counted
@@ -32,36 +33,6 @@ WIDTH = 100  # characters of a line of comment
 
 
 @dataclass(frozen=True)
-class Units:
-    """A consistent system of units, whose unit `stress` is `pascals` Pa."""
-
-    name: str
-    stress: str
-    pascals: float
-
-    def express(self, modulus: float) -> float:
-        """A modulus [Pa] in the unit `stress`."""
-        return modulus / self.pascals
-
-
-UNITS = {"SI": Units("m, N, s, Pa", "Pa", 1.0), "mm-N-MPa": Units("mm, N, s, MPa", "MPa", 1e6)}
-
-
-@dataclass(frozen=True)
-class Settings:
-    """What the user chooses for an export.
-
-    `allowed` are the largest errors of the series; where `poisson` is None it is assumed; `units` are those of the
-    file, `name` that of the material.
-    """
-
-    allowed: Miss = Miss(1.0, 0.5)
-    poisson: float | None = None
-    units: Units = UNITS["SI"]
-    name: str = "ASPHALT"
-
-
-@dataclass(frozen=True)
 class Card:
     """A law as a Prony series at `law.temperature`, with its largest errors over the band.
 
@@ -69,10 +40,15 @@ class Card:
     """
 
     law: ExportedLaw
-    settings: Settings
+    settings: ExportSettings
     series: MaxwellSeries
     error: Miss
     exact: bool
+
+    @property
+    def units(self) -> Units:
+        """The units of the file."""
+        return UNITS[self.settings.units]
 
     @property
     def poisson(self) -> float:
@@ -136,9 +112,7 @@ class Card:
             "statements.j2",
             card=self,
             law=self.law,
-            modulus=lambda pascals: (
-                f"{self.settings.units.express(pascals):.6g} {self.settings.units.stress}"
-            ),
+            modulus=lambda pascals: f"{self.units.express(pascals):.6g} {self.units.stress}",
             band_of=lambda low, high: np.geomspace(low, high, 30),
             percent_of=lambda half: tuple(100.0 * np.expm1([half.min(), half.max()])),
             degrees_of=lambda half: tuple(np.degrees([half.min(), half.max()])),
@@ -154,7 +128,7 @@ class Card:
             terms=list(zip(series.weights, series.times, strict=True)),
             moduli=list(zip(series.moduli, series.times, strict=True)),
             wlf=self.law.wlf(),
-            express=self.settings.units.express,
+            express=self.units.express,
             comment=lambda sign: comment(sign, self.statements()),
             zero_celsius=ZERO_CELSIUS,
         )
@@ -172,7 +146,7 @@ def comment(sign: str, said: Sequence[str]) -> str:
     return "\n".join(f"{sign} {line}" for line in lines).encode("ascii", "replace").decode()
 
 
-def make_card(law: ExportedLaw, settings: Settings) -> Card:
+def make_card(law: ExportedLaw, settings: ExportSettings) -> Card:
     """The card of a law: exact where its series is finite, else fitted within the allowed error.
 
     Refuses a law that does not relax over its band, and an error that cannot be met.
@@ -188,7 +162,9 @@ def make_card(law: ExportedLaw, settings: Settings) -> Card:
             )
         return Card(law, settings, series, miss(series, law.reference_modulus, low, high), exact=True)
     try:
-        series, error = fit_series(law.reference_modulus, low, high, settings.allowed)
+        series, error = fit_series(
+            law.reference_modulus, low, high, Miss(settings.error_percent, settings.error_deg)
+        )
     except InputError as refusal:
         raise InputError(f"{law.path}: {refusal}") from None
     if not series.moduli:
@@ -212,7 +188,7 @@ def _short(value: float) -> str:
     return f"{float(Context(prec=2, rounding=ROUND_UP).create_decimal(Decimal(value))):.2g}"
 
 
-def write_card(law: ExportedLaw, settings: Settings, path: Path, name: str, solid: bool = False) -> str:
+def write_card(law: ExportedLaw, settings: ExportSettings, path: Path, name: str, solid: bool = False) -> str:
     """Write the card of a law by a template; a line on it. `solid`: the program wants a solid at infinite time."""
     card = make_card(law, settings)
     card = card.solid() if solid else card

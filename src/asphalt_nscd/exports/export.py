@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from asphalt_nscd.exports.card import Settings
 from asphalt_nscd.exports.formats import FORMATS, format_of
 from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path
 
 
-def export_law(law: ExportedLaw, settings: Settings, form: str, output: str | Path) -> str:
+def export_law(law: ExportedLaw, settings: ExportSettings, form: str, output: str | Path) -> str:
     """Write a law in one of FORMATS; returns a line on what was written and how well it follows the law."""
     output = Path(output)
     require_form(form, output)

@@ -6,7 +6,21 @@ from dataclasses import dataclass
 
 from asphalt_nscd.files.options import Ranged, option
 
-UNITS = ("SI", "mm-N-MPa")
+
+@dataclass(frozen=True)
+class Units:
+    """A consistent system of units, whose unit `stress` is `pascals` Pa."""
+
+    name: str
+    stress: str
+    pascals: float
+
+    def express(self, modulus: float) -> float:
+        """A modulus [Pa] in the unit `stress`."""
+        return modulus / self.pascals
+
+
+UNITS = {"SI": Units("m, N, s, Pa", "Pa", 1.0), "mm-N-MPa": Units("mm, N, s, MPa", "MPa", 1e6)}
 
 
 @dataclass(frozen=True)
@@ -36,5 +50,5 @@ class ExportSettings(Ranged):
     error_deg: float = option(default=0.5, above=0.0)
     # between these limits shear and bulk moduli are positive
     poisson: float | None = option(default=None, above=-1.0, below=0.5)
-    units: str = option(default="SI", choices=UNITS)
+    units: str = option(default="SI", choices=tuple(UNITS))
     name: str = option(default="ASPHALT")

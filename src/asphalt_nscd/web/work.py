@@ -263,17 +263,17 @@ def _campaign(paths: Sequence[Path], choices: Choices) -> Any:
 
 def _export(output: Path) -> None:
     """The law for each program, beside the other files; one that cannot be met is left out."""
-    from asphalt_nscd.exports.card import Settings
     from asphalt_nscd.exports.export import export_law
     from asphalt_nscd.exports.formats import FORMATS, format_of
     from asphalt_nscd.exports.law import read_law_file
+    from asphalt_nscd.exports.settings import ExportSettings
 
     if not (output / "law.json").is_file():
         return
     law = read_law_file(output / "law.json")
     for form in FORMATS:
         with suppress(InputError):
-            export_law(law, Settings(), form, output / f"law_{form}{format_of(form).ENDINGS[0]}")
+            export_law(law, ExportSettings(), form, output / f"law_{form}{format_of(form).ENDINGS[0]}")
 
 
 def _compared(paths: Sequence[Path], choices: Choices, output: Path, progress: Any) -> dict[str, Any]:

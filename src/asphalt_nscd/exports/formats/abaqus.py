@@ -10,15 +10,16 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from asphalt_nscd.exports.card import Settings, write_card
+from asphalt_nscd.exports.card import write_card
 from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
 
 LONGEST_NAME = 80  # characters of a label
 ENDINGS = (".inp",)
 
 
-def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+def write(law: ExportedLaw, settings: ExportSettings, path: Path) -> str:
     """Write the law as an Abaqus input file; a line on it. Refuses a name that Abaqus does not take."""
     name = settings.name
     # A comma in a keyword line begins the next parameter, and the name comes from the user.

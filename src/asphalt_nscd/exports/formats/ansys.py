@@ -9,15 +9,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from asphalt_nscd.exports.card import Settings, make_card, write_card
+from asphalt_nscd.exports.card import make_card, write_card
 from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
 
 MOST_TERMS = 100
 ENDINGS = (".inp", ".mac", ".dat", ".txt")
 
 
-def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+def write(law: ExportedLaw, settings: ExportSettings, path: Path) -> str:
     """Write the law as Ansys commands to be read within /PREP7; a line on it. Refuses more terms than Ansys takes."""
     terms = len(make_card(law, settings).solid().series.moduli)
     if terms > MOST_TERMS:

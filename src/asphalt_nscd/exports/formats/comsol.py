@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from asphalt_nscd.exports.card import Settings, write_card
+from asphalt_nscd.exports.card import write_card
 from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.exports.settings import ExportSettings
 
 ENDINGS = (".txt",)
 
 
-def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+def write(law: ExportedLaw, settings: ExportSettings, path: Path) -> str:
     """Write the law as a table with a readme; a line on it."""
     return write_card(law, settings, path, "comsol.j2", solid=True)

@@ -6,13 +6,14 @@ from pathlib import Path
 
 import pandas as pd
 
-from asphalt_nscd.exports.card import Card, Settings, comment, make_card
+from asphalt_nscd.exports.card import Card, comment, make_card
 from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.exports.settings import ExportSettings
 
 ENDINGS = (".csv",)
 
 
-def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+def write(law: ExportedLaw, settings: ExportSettings, path: Path) -> str:
     """Write the law as a table of branches; a line on it. Lines that begin with # are comment."""
     card = make_card(law, settings)
     table = frame(card).to_csv(index=False, float_format="%.10g", lineterminator="\n")
@@ -25,7 +26,7 @@ def frame(card: Card) -> pd.DataFrame:
 
     Row 0 is the long-term modulus, whose relaxation time is infinite.
     """
-    series, units = card.series, card.settings.units
+    series, units = card.series, card.units
     moduli, half = [series.long_term, *series.moduli], card.half_widths
     known = {} if half is None else {f"half_95_{units.stress}": [units.express(one) for one in half]}
     return pd.DataFrame(

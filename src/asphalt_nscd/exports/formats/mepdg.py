@@ -14,8 +14,9 @@ import pandas as pd
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from asphalt_nscd.exports.card import Settings, comment, statements
+from asphalt_nscd.exports.card import comment, statements
 from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.units import PSI, celsius_of_fahrenheit
 
@@ -47,7 +48,7 @@ class Table:
     spread: Vector | None
 
 
-def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+def write(law: ExportedLaw, settings: ExportSettings, path: Path) -> str:
     """Write the table of |E*| in psi, whatever the settings; a line on it."""
     table = make_table(law)
     path.write_text(text(table), encoding="utf-8")

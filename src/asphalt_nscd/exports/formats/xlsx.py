@@ -19,9 +19,10 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from asphalt_nscd.diagnosis.content.doubts import LEFT_OUT
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
-from asphalt_nscd.exports.card import Card, Settings, make_card
+from asphalt_nscd.exports.card import Card, make_card
 from asphalt_nscd.exports.formats import csv
 from asphalt_nscd.exports.law import ExportedLaw
+from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.paths import is_file
 from asphalt_nscd.files.store import atomic_path
 
@@ -53,7 +54,7 @@ HEADINGS = {
 }
 
 
-def write(law: ExportedLaw, settings: Settings, path: Path) -> str:
+def write(law: ExportedLaw, settings: ExportSettings, path: Path) -> str:
     """Write the workbook of a law, with what stands beside it in the folder of a diagnosis; a line on it."""
     card = make_card(law, settings)
     book = Workbook()
@@ -176,7 +177,7 @@ def _master_curve(card: Card) -> pd.DataFrame:
 
 def _prony(card: Card) -> pd.DataFrame:
     """As the CSV has it, but the infinite time of the long-term modulus is left empty."""
-    unit = card.settings.units.stress
+    unit = card.units.stress
     return csv.frame(card).rename(
         columns={
             "branch": "branch (0: long-term modulus)",
