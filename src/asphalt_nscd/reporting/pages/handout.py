@@ -121,12 +121,9 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf.set_font(FONT, "B", 10.5)
     pdf.text_block(typeset(Words(content)("value")[0]))
     pdf.set_font(FONT, size=SIZE)
-    pdf.text_block(
-        "In brackets: 95 % intervals. The line and its band are the mix, of which all values below are: certain faults "
-        "are taken off, possible ones by their probability. Points: tests as measured. Dashed: the law below, of "
-        f"few parameters, for other programs.{_resting_on(content['trust'])}"
-    )
-    pdf.picture(*_pictures(folder, content))
+    master = _master(folder, content)
+    pdf.text_block(f"{_explained(master)}{_resting_on(content['trust'])}")
+    pdf.picture(*_pictures(master))
     reported = pd.read_csv(folder / "reported.csv")
     axial = content["reading"]["test_type"] == "tension-compression"
     for asked_by, where in {TESTS: "where tests were made", R_84: f"for {R_84}"}.items():
@@ -168,11 +165,26 @@ def _resting_on(trust: Mapping[str, Any]) -> str:
     return f" They rest on {trust['use'] + doubtful} tests, {doubtful} of them doubtful." if doubtful else ""
 
 
-@style.journal
-def _pictures(folder: Path, content: Mapping[str, Any]) -> list[Any]:
-    """Master curves of |E*| and phase."""
+def _explained(master: fig_master.Master) -> str:
+    """What lines, band and points are."""
+    mix = "certain faults are taken off, possible ones by their probability. Points: tests as measured."
+    if master.mix is None:
+        return (
+            f"In brackets: 95 % intervals. Values: the mix; {mix} Lines: modelled, one for each temperature."
+        )
+    law = " Dashed: the law below, of few parameters, for other programs." * (master.law is not None)
+    return f"In brackets: 95 % intervals. The line and its band are the mix, of which all values below are: {mix}{law}"
+
+
+def _master(folder: Path, content: Mapping[str, Any]) -> fig_master.Master:
+    """Every test and the curves."""
     tests, used = every_test([folder / "causality.csv"], content), read_residuals([folder / "residuals.csv"])
-    master = fig_master.master(tests, used, content, [folder / "master_curve.csv"])
+    return fig_master.master(tests, used, content, [folder / "master_curve.csv"])
+
+
+@style.journal
+def _pictures(master: fig_master.Master) -> list[Any]:
+    """Master curves of |E*| and phase."""
     figures = []
     for quantity in panels.QUANTITIES:
         figure, axes = style.new_figure(86.0, 74.0)
