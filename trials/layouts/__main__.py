@@ -1,4 +1,4 @@
-"""Laboratory layouts: how many are read, how many refused, and how many read wrongly. In a folder, as tables:
+"""Laboratory layouts: how many are read, refused, and read wrongly, and whether mends hold. In a folder, as tables:
 
 PYTHONPATH=trials .venv/bin/python -m layouts [NUMBER] [SEED] [--output FOLDER]
 """
@@ -13,9 +13,12 @@ from pathlib import Path
 import pandas as pd
 
 from asphalt_nscd.files.store import provenance, write_json, write_table
-from layouts.generator import Laboratory, draw
+from layouts.files import draw
+from layouts.laboratory import Laboratory
+from layouts.refusals import refusals
 from layouts.score import outcome
 
+REFUSED = 60  # files that are refused, whose mends are tried
 LEAST = 0.95  # share that must be read
 
 
@@ -24,7 +27,7 @@ def tried(number: int, first: int, folder: Path) -> pd.DataFrame:
     rows = []
     for seed in range(first, first + number):
         family, path, tests = draw(seed, folder)
-        result, why = outcome(path, tests)
+        result, why = outcome(path, tests, "M1" if family == "two_mixes" else None)
         rows.append(
             (path.name, family, Laboratory(seed).language, path.suffix, result, why.replace(f"{folder}/", ""))
         )
@@ -42,16 +45,29 @@ def summary(files: pd.DataFrame) -> pd.DataFrame:
     return counts.reset_index().rename_axis(columns=None)
 
 
+def tried_mends(refused: pd.DataFrame) -> pd.DataFrame:
+    """By what was wrong with a file: how many were read after one sentence, after several, and not."""
+    read, once = refused["result"] == "read", refused["steps"] == 1
+    kinds = refused.assign(files=1, once=read & once, later=read & ~once, never=~read).groupby("slip", sort=False)
+    counts = kinds[["files", "once", "later", "never"]].sum()
+    counts.loc["all"] = counts.sum()
+    return counts.reset_index()
+
+
 def main(number: int, first: int, output: Path | None) -> int:
     with tempfile.TemporaryDirectory() as folder:
         files = tried(number, first, Path(folder))
-    counts = summary(files)
-    print(counts.to_string(index=False))
+        refused = refusals(REFUSED, first, Path(folder))
+    counts, mends = summary(files), tried_mends(refused)
+    print(counts.to_string(index=False), mends.to_string(index=False), sep="\n")
     if output is not None:
         write_table(output / "layouts.csv", files)
         write_table(output / "summary.csv", counts)
+        write_table(output / "refusals.csv", refused)
+        write_table(output / "mends.csv", mends)
         write_json(output / "provenance.json", provenance())
-    return int((files["result"] == "wrong").any() or (files["result"] == "read").mean() < LEAST)
+    wrong = [*files["result"], *refused["result"]].count("wrong")
+    return int(wrong > 0 or (files["result"] == "read").mean() < LEAST)
 
 
 if __name__ == "__main__":

@@ -139,8 +139,8 @@ PUBLISHED = {
     "publish_cluster": Published("cluster", ["cluster.csv", "provenance.json"], sources="trials/cluster/*.py"),
     "publish_layouts": Published(
         "layouts",
-        ["layouts.csv", "provenance.json"],
-        {"layouts": "summary.csv"},
+        ["layouts.csv", "refusals.csv", "provenance.json"],
+        {"layouts": "summary.csv", "mends": "mends.csv"},
         modules=["cli.diagnose", "cli.new_study"],
         sources="trials/layouts/*.py",
     ),

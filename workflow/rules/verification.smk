@@ -39,10 +39,10 @@ rule mutants:
 rule layouts:
     """Two hundred files as laboratories lay them out: each read as it was meant, or refused; never read wrongly."""
     input:
-        trial=[shipped(f"trials/layouts/{name}.py") for name in ("__main__", "generator", "score")],
+        trial=[shipped(f"trials/layouts/{path.name}") for path in sorted((CLONE / "trials/layouts").glob("*.py"))],
         code=local(stamp(".snakemake/code", "layouts", source_files("table_import.campaign", "api.reading")).as_posix()),
     output:
-        multiext("results/layouts/", "layouts.csv", "summary.csv", "provenance.json"),
+        multiext("results/layouts/", "layouts.csv", "summary.csv", "refusals.csv", "mends.csv", "provenance.json"),
     log:
         "results/layouts/logs/layouts.log",
     benchmark:

@@ -106,7 +106,7 @@ def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
     if np.mean(slope < -LEAST_SLOPE) >= 0.8 and np.median(phase) > 90.0 * LEAST_SLOPE:
         yield (
             "|E*| falls as the frequency rises, while the phases say that it rises: the frequencies look listed in "
-            "reverse order; correct them."
+            "reverse order, or the names of |E*| and phase exchanged; correct them."
         )
         return
     for (specimen, temperature), tests in table.groupby(["specimen", "temperature_C"]):

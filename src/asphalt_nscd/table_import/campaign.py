@@ -18,7 +18,7 @@ from asphalt_nscd.files.words import choice, counted
 from asphalt_nscd.measurements.campaign import Campaign, nominal_temperatures
 from asphalt_nscd.measurements.kinds import UNKNOWN
 from asphalt_nscd.measurements.slips import FACTORS, unit_in_question
-from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, read_sheets
+from asphalt_nscd.table_import.cells import NotTests, Row, Sheet, UnreadNames, read_sheets
 from asphalt_nscd.table_import.computed import computed_specimens
 from asphalt_nscd.table_import.layouts import Layout, layout_of
 from asphalt_nscd.table_import.quantities import QUALITY
@@ -40,6 +40,7 @@ from asphalt_nscd.table_import.understand import (
     names_force_or_modulus,
     understand,
 )
+from asphalt_nscd.table_import.unknown_names import named, with_names
 from asphalt_nscd.table_import.words import WORDS
 
 TEXT_FILES = (".txt", ".dat")  # which may hold running text
@@ -194,6 +195,15 @@ def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:
     """Tests of a file; of several sheets each that holds tests, the others named in the notes."""
     require_readable(path, "check the path")
     sheets = read_sheets(path, wanted.sheet)
+    try:
+        return _of_sheets(path, sheets, notes, wanted)
+    except UnreadNames as error:
+        if wanted.columns and (ours := named(sheets, wanted.columns)):
+            return _of_sheets(path, ours, notes, wanted._replace(columns={}))
+        raise with_names(error, path, sheets) from None
+
+
+def _of_sheets(path: Path, sheets: Sequence[Sheet], notes: list[str], wanted: _Wanted) -> list[Part]:
     if layout := layout_of(sheets):
         return _parts(path, layout, sheets, wanted)
     parts: list[Part] = []

@@ -29,7 +29,11 @@ _REMARK = re.compile(r"\s*#(?![\dA-Z]|\s*(?:[,;\t\"]|$))")
 Row = tuple[int, list[str]]  # line in the file, from 1, and its fields
 
 
-class NotTests(InputError):
+class UnreadNames(InputError):
+    """A table whose columns cannot be told, perhaps for the words that name them."""
+
+
+class NotTests(UnreadNames):
     """A file that holds no tests at all; in a folder it is passed over and named."""
 
 
@@ -187,21 +191,12 @@ def _first(cells: list[str]) -> str:
 
 def _fitted(path: Path, header: list[str], rows: list[Row], notes: list[str]) -> list[Row]:
     """Rows filled up to the length of the header, which none may exceed."""
-    from asphalt_nscd.table_import.heading import known
-    from asphalt_nscd.table_import.quantities import units_in
-
-    above = [*header, *(rows[0][1] if rows else [])]
-    strange = next((name for name in above if units_in(name) and known(name) is None), "")
     for line, cells in rows:
         if len(cells) > len(header):
             mend = f"write a name above {cells[len(header)]!r}, or clear what is no result"
             if "columns separated by commas" in notes:
                 mend = "if decimals are written with a comma, separate the columns with semicolons"
-            elif strange:
-                mend = (
-                    f"{strange!r} is not known: write temperature, frequency, |E*| or phase before its unit"
-                )
-            raise InputError(
+            raise UnreadNames(
                 f"{path}, line {line}: {len(cells)} fields under {len(header)} column names; {mend}."
             )
     return [(line, cells + [""] * (len(header) - len(cells))) for line, cells in rows]

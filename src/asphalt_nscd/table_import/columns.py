@@ -9,7 +9,7 @@ import numpy as np
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import choice
-from asphalt_nscd.table_import.cells import Cells
+from asphalt_nscd.table_import.cells import Cells, UnreadNames
 from asphalt_nscd.table_import.decimals import number
 from asphalt_nscd.table_import.heading import strip_conditions
 from asphalt_nscd.table_import.quantities import MEASURED, Meaning, derived, recognise, unit_in
@@ -58,7 +58,7 @@ def chosen_columns(cells: Cells, chosen: Mapping[str, str]) -> dict[str, list[Pl
             several = (
                 f"{len(places)} columns are called {name!r}; rename one" if places else f"no column {name!r}"
             )
-            raise InputError(f"{cells.path}: {several}; its columns are {', '.join(cells.header)}.")
+            raise UnreadNames(f"{cells.path}: {several}; its columns are {', '.join(cells.header)}.")
         if kind := derived(cells.header[places[0]]):
             raise InputError(
                 f"{cells.path}: {_named(wanted)}column {name!r} holds "

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.table_import.cells import Block, Cells, Row, Sheet
+from asphalt_nscd.table_import.cells import Block, Cells, Row, Sheet, UnreadNames
 from asphalt_nscd.table_import.decimals import match_decimal_mark
 from asphalt_nscd.table_import.header_lines import NUMBER, told_above
 from asphalt_nscd.table_import.heading import (
@@ -124,10 +124,7 @@ def _agreed(path: Path, matrices: list[_Matrix]) -> dict[str, str]:
             )
     unknown = [text for one in matrices for text in one.unknown]
     if unknown and not {"E_MPa", "phase_deg"} <= names.keys() and "E1_MPa" not in names:
-        raise InputError(
-            f"{path}: {unknown[0]!r} above a matrix is no quantity that is known; write |E*| or phase for it, with "
-            "its unit."
-        )
+        raise UnreadNames(f"{path}: {unknown[0]!r} above a matrix is not known; write |E*| or phase for it.")
     if len(axes := {one.axes for one in matrices if one.values}) > 1:
         sides = " and ".join(sorted({name for both in axes for name in both}))
         raise InputError(f"{path}: the matrices have {sides} along their sides; give all in one unit.")
@@ -207,7 +204,7 @@ def _of_specimens(rows: list[Row]) -> Iterator[_Matrix]:
         for line, row in rows[at + 1 :]:
             texts = [row[n] if n < len(row) else "" for n in (*places, *measures)]
             temperature = texts[0] or temperature
-            if not all(NUMBER.fullmatch(text) or text.casefold() in ABSENT for text in texts) or not texts[1]:
+            if not _mostly_numbers(texts) or not NUMBER.fullmatch(texts[1]):
                 break
             matrix.names[column.quantity] = next(iter(headings.values())).name
             matrix.values += [
@@ -230,12 +227,17 @@ def _height(rows: list[Row], at: int, place: int) -> int:
         if any(row[: place - 1]) and not (place == 2 and quantity_of(head[0]) in (SPECIMEN, "replicate")):
             return 0
         body = row[place:]
-        numbers = all(NUMBER.fullmatch(cell) or cell.casefold() in ABSENT for cell in body)
-        if not body or len(row) > len(head) or not numbers or not _ON_AXIS.fullmatch(row[place - 1]):
+        if not _mostly_numbers(body) or len(row) > len(head) or not _ON_AXIS.fullmatch(row[place - 1]):
             break
         down.append(_number(row[place - 1]))
     # An axis repeats no value, unless specimens stand in front of it.
     return len(down) if len(down) > 1 and (place == 2 or len(set(down)) == len(down)) else 0
+
+
+def _mostly_numbers(cells: list[str]) -> bool:
+    """Whether cells are results; a word among them is refused as it is read."""
+    words = [cell for cell in cells if not NUMBER.fullmatch(cell) and cell.casefold() not in ABSENT]
+    return bool(cells) and 2 * len(words) < len(cells)
 
 
 def _repeats_one_order(values: list[str]) -> bool:

@@ -5,20 +5,21 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import combinations
 
 import numpy as np
 
 from asphalt_nscd.files.csvinput import Table, Values
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.words import choice
+from asphalt_nscd.files.words import choice, joined
 from asphalt_nscd.measurements.reduction import FORMS, OF_RECORDS, ORIGINS, is_reduced
-from asphalt_nscd.table_import.cells import Cells, NotTests
+from asphalt_nscd.table_import.cells import Cells, NotTests, UnreadNames
 from asphalt_nscd.table_import.columns import Place, chosen_columns, column_cue, name_with_unit, one_of
 from asphalt_nscd.table_import.decimals import decimal_mark, number
 from asphalt_nscd.table_import.header_lines import attach_units
 from asphalt_nscd.table_import.heading import known, strip_conditions
 from asphalt_nscd.table_import.melt import melted
-from asphalt_nscd.table_import.quantities import MEASURED, QUALITY, derived, recognise, units_in
+from asphalt_nscd.table_import.quantities import QUALITY, derived, recognise
 from asphalt_nscd.table_import.rows import CARRIED, tests_in
 from asphalt_nscd.table_import.storage_loss import PARTS, SAID, WAYS, whole_modulus
 from asphalt_nscd.table_import.words import ABSENT
@@ -114,6 +115,7 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None, mix: str |
             {name: np.asarray(values[name]) for name in given}
         )
         notes.append(f"|E*| and phase computed from {' and '.join(SAID[name] for name in given)}")
+    _require_order(cells, read)
     notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
     if note := _specimens(cells, values):
         notes.append(note)
@@ -126,6 +128,18 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None, mix: str |
     return ParsedTable(
         Table(cells.path, wanted, [line for line, _ in cells.rows]), form, notes, read, of_mix, without_phase
     )
+
+
+def _require_order(cells: Cells, read: Mapping[str, Column]) -> None:
+    """Refuse a modulus and a phase whose names were exchanged: no phase is above 90 deg."""
+    if not {"E_MPa", "phase_deg"} <= read.keys():
+        return
+    modulus, phase = read["E_MPa"], read["phase_deg"]
+    if np.nanmedian(np.asarray(phase.values, float)) > 90.0 > np.nanmax(np.asarray(modulus.values, float)):
+        raise InputError(
+            f"{cells.path}: the numbers below {modulus.heading!r} are as phases, and those below {phase.heading!r} as "
+            "moduli; exchange the two names."
+        )
 
 
 def _own(cells: Cells) -> ParsedTable | None:
@@ -254,31 +268,19 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     *words, last = (_WORDS[name] for name in missing[form])
     named = ", ".join(name[:60] for name in cells.header)
     wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
-    raise (NotTests if nothing else InputError)(
-        f"{cells.path}: no {wanted} (found: {named}); {_mend(cells, missing[form])}."
+    raise (NotTests if nothing else UnreadNames)(
+        f"{cells.path}: no {wanted} (found: {named}); {_mend(missing[form])}."
     )
 
 
-def _mend(cells: Cells, missing: Sequence[str]) -> str:
-    """How to name the columns of quantities that are missing: those of unknown names in a unit that fits."""
-    unknown = [name for name in cells.header if known(strip_conditions(name)) is None]
-    fitting = {
-        quantity: [
-            (name, unit) for name in unknown for unit in units_in(name) if unit in MEASURED[quantity][1]
-        ]
-        for quantity in missing
-    }
-    if several := next((quantity for quantity, names in fitting.items() if len(names) > 1), ""):
-        name, _ = fitting[several][0]
-        return f"write {_WORDS[several]} for the name in {name!r} and in the others like it, before the unit"
-    if not all(fitting.values()):
-        return f"write names with units, or name a column of yours {column_cue(missing[0], 'its name')}"
-    cues = [
-        column_cue(f"{quantity.rpartition('_')[0]}_{unit}", name)
-        for quantity, names in fitting.items()
-        for name, unit in names
-    ]
-    return f"write names that are known, or say {' and '.join(cues)}"
+def _mend(missing: Sequence[str]) -> str:
+    """How to give quantities that no name says."""
+    cues = joined([column_cue(name, "NAME") for name in missing])
+    way = choice(f"say {cues}, with your own name and unit", "choose in the menus below")
+    if len(missing) == 1 and missing[0] in KEYS:
+        cell = {"temperature_C": "T = 20 °C", "frequency_Hz": "f = 10 Hz"}[missing[0]]
+        return f"add a column, or a line {cell!r} above the names if it is that of all tests, or {way}"
+    return f"write |E*|, phase, temperature and frequency with their units as names, or {way}"
 
 
 def _require_plain(cells: Cells, missing: Sequence[str]) -> None:
@@ -359,13 +361,21 @@ def _word(cells: Cells, line: int, name: str, text: str) -> str:
 
 
 def _telling(cells: Cells, tests: list[tuple[object, ...]]) -> str:
-    """The name of the column whose texts tell equal tests apart."""
+    """How a user says which column tells equal tests apart, or which two, mix and specimen; empty for none."""
+    labels: dict[str, list[str]] = {}
     for place, name in enumerate(cells.header):
-        texts = [row[place] for _, row in cells.rows]
-        labels = known(name) is None and len(set(texts)) < len(texts) / 2
-        if labels and len(set(zip(tests, texts, strict=True))) == len(texts):
-            return name
-    return "its name"
+        texts: list[str] = []
+        for _, row in cells.rows:  # one that stands in the first row of several alone is of all
+            texts.append(row[place] or (texts[-1] if texts else ""))
+        if known(name) is None and 1 < len(set(texts)) < len(texts) / 2:
+            labels[name] = texts
+    for name, texts in labels.items():
+        if len(set(zip(tests, texts, strict=True))) == len(texts):
+            return column_cue("specimen", name)
+    for two in combinations(sorted(labels, key=lambda name: len(set(labels[name]))), 2):
+        if len(set(zip(tests, *map(labels.get, two), strict=True))) == len(tests):
+            return " and ".join(map(column_cue, ("mix", "specimen"), two))
+    return ""
 
 
 def _specimens(cells: Cells, values: dict[str, Values]) -> str:
@@ -382,9 +392,10 @@ def _specimens(cells: Cells, values: dict[str, Values]) -> str:
         # Nothing tells whether it is another specimen or the same again, which scatter differently.
         earlier = first.setdefault(tuple(test), line)
         if earlier != line:
-            name = _telling(cells, list(zip(*distinguishing, strict=True)))
+            cue = _telling(cells, list(zip(*distinguishing, strict=True)))
+            way = f", or say that one is, {cue}" if cue else ""
             raise InputError(
                 f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens "
-                f"apart; add a column specimen or replicate, or say which is one, {column_cue('specimen', name)}."
+                f"apart; add a column specimen{way}."
             )
     return "no column of specimens, so all tests are taken as of one specimen"

@@ -5,14 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from layouts.generator import FAMILIES, draw
+from layouts.families import FAMILIES
+from layouts.files import draw
+from layouts.mends import User
+from layouts.refusals import obeyed
 from layouts.score import outcome
 
 
 @pytest.mark.parametrize("seed", range(len(FAMILIES)))
 def test_each_layout_is_read(tmp_path, seed):
-    _, path, tests = draw(seed, tmp_path)
-    assert outcome(path, tests) == ("read", "")
+    family, path, tests = draw(seed, tmp_path)
+    assert outcome(path, tests, "M1" if family == "two_mixes" else None) == ("read", "")
 
 
 def test_a_wrong_reading_is_seen(tmp_path):
@@ -25,3 +28,14 @@ def test_a_wrong_reading_is_seen(tmp_path):
     other = {a: b, b: a}
     swapped = {(other.get(s, s) if t == key[1] else s, t, f): v for (s, t, f), v in tests.values.items()}
     assert outcome(path, replace(tests, values=swapped))[0] == "wrong"
+
+
+@pytest.mark.parametrize("seed", [*range(0, 22, 2), 5, 7, 17, 19])
+def test_what_a_refusal_asks_mends_the_file(tmp_path, seed):
+    tried = obeyed(seed, tmp_path)
+    assert tried is None or tried.result == "read", tried.sentences
+
+
+def test_a_mend_that_is_not_done_leaves_the_file_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr(User, "obey", lambda user, sentence: True)
+    assert obeyed(5, tmp_path).result == "refused"

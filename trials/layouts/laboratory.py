@@ -1,0 +1,150 @@
+"""A laboratory as it writes: its words, units and marks, and the tests that it has. Knows nothing of the reader."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+Rows = list[list[Any]]
+Sheets = dict[str, Rows]
+UNITS = {"MPa": (1.0, 0), "GPa": (1e-3, 3), "ksi": (1 / 6.894757293, 1), "N/mm²": (1.0, 0)}
+# Modulus, phase, frequency, temperature, specimen; a mean, a deviation and a CV; a mix.
+LANGUAGES = {
+    "en": (
+        ("Dynamic modulus", "|E*|", "E*", "Complex modulus", "Stiffness"), ("Phase angle", "phi", "δ", "Phase lag"),
+        ("Frequency", "Freq.", "f"), ("Temperature", "Temp.", "T", "Test temperature"), ("Specimen", "Sample", "Core"),
+        ("Mean", "Average", "Ave", "Avg."), ("Std. dev.", "SD", "St.Dev"), ("CV", "COV"), "Mix"),
+    "fr": (
+        ("Module complexe", "Module |E*|", "Norme du module", "Rigidité"), ("Angle de phase", "Déphasage", "φ"),
+        ("Fréquence", "Fréq.", "f"), ("Température", "Temp.", "T", "Température d'essai"),
+        ("Éprouvette", "Échantillon"), ("Moyenne", "Moy.", "Moy"), ("Écart-type", "Ecart type", "σ"),
+        ("CV", "Coeff. var."), "Enrobé"),
+    "de": (
+        ("Steifigkeit", "Steifigkeitsmodul", "Komplexer Modul", "E-Modul"),
+        ("Phasenwinkel", "Phasenverschiebung", "φ"), ("Frequenz", "Prüffrequenz", "f"),
+        ("Temperatur", "Prüftemperatur", "T"), ("Prüfkörper", "Probekörper", "Probe"),
+        ("Mittelwert", "MW", "Mittel", "x quer"), ("Stabw.", "s", "Standardabweichung"),
+        ("VK", "Variationskoeffizient"), "Mischgut"),
+    "es": (
+        ("Módulo dinámico", "Módulo complejo", "Rigidez", "|E*|"), ("Ángulo de fase", "Desfase", "φ"),
+        ("Frecuencia", "Frec.", "f"), ("Temperatura", "Temp.", "T"), ("Probeta", "Muestra"),
+        ("Promedio", "Media", "Prom."), ("Desv. est.", "Desviación"), ("CV", "Coef. var."), "Mezcla"),
+    "it": (
+        ("Modulo complesso", "Modulo dinamico", "Rigidezza", "E*"), ("Angolo di fase", "Sfasamento", "δ"),
+        ("Frequenza", "Freq.", "f"), ("Temperatura", "T"), ("Provino", "Campione"),
+        ("Media", "Valore medio"), ("Dev. st.", "Scarto"), ("CV", "Coeff. var."), "Miscela"),
+    "pl": (
+        ("Moduł sztywności", "Moduł zespolony", "|E*|"), ("Kąt przesunięcia fazowego", "Kąt fazowy", "φ"),
+        ("Częstotliwość", "f"), ("Temperatura", "T", "Temp."), ("Próbka", "Nr próbki"),
+        ("Średnia", "Wartość średnia", "Śr."), ("Odch. std.", "Odchylenie"), ("Wsp. zm.", "CV"), "Mieszanka"),
+}  # fmt: skip
+SCHEMES = (
+    ([4.0, 20.0, 40.0], [25.0, 10.0, 5.0, 1.0, 0.5, 0.1]),
+    ([-10.0, 4.0, 21.0, 37.0, 54.0], [25.0, 10.0, 5.0, 1.0, 0.5, 0.1]),
+    ([-10.0, 0.0, 10.0, 15.0, 20.0, 30.0], [1.0, 3.0, 10.0, 25.0, 30.0, 40.0]),
+    ([0.0, 10.0, 20.0, 30.0], [0.1, 0.3, 1.0, 3.0, 10.0, 20.0]),
+)
+
+
+@dataclass(frozen=True)
+class Tests:
+    """What a file holds: |E*| [MPa] and phase [deg] by specimen, temperature [degC] and frequency [Hz]."""
+
+    values: dict[tuple[str, float, float], tuple[float, float]]
+
+    @property
+    def specimens(self) -> list[str]:
+        """In the order of the file."""
+        return list(dict.fromkeys(s for s, _, _ in self.values))
+
+
+class Laboratory:
+    """How one laboratory writes: its words, units and marks, and the tests that it has."""
+
+    def __init__(self, seed: int, languages: dict[str, tuple[Any, ...]] = LANGUAGES) -> None:
+        """Draw words, units and tests."""
+        self.random = np.random.default_rng(seed)
+        pick = self.pick
+        self.language = pick(list(languages))
+        *words, mix = languages[self.language]
+        modulus, phase, frequency, temperature, self.specimen, *self.statistics = map(pick, words)
+        self.mix = mix
+        self.unit = pick(["MPa", "MPa", "MPa", "GPa", "N/mm²", "ksi" if self.language == "en" else "GPa"])
+        self.fahrenheit = self.unit == "ksi" and self.chance(0.7)
+        self.radians = self.chance(0.1)
+        left, right = pick([" (", ")"], [" [", "]"], [", ", ""])
+        degree = "rad" if self.radians else pick("°", "deg" if self.language == "en" else "°")
+        celsius = "°F" if self.fahrenheit else "°C"
+        units = {"e": self.unit, "p": degree, "f": "Hz", "t": celsius}
+        names = {"e": modulus, "p": phase, "f": frequency, "t": temperature}
+        self.bare, self.units = names, units
+        self.name = {key: f"{name}{left}{units[key]}{right}" for key, name in names.items()}
+        self.tests = self._tests(int(self.random.integers(2, 5)))
+
+    def pick(self, *options: Any) -> Any:
+        """One of several options, or of those in the only one."""
+        among = options[0] if len(options) == 1 else options
+        return among[int(self.random.integers(len(among)))]
+
+    def chance(self, share: float) -> bool:
+        """True in this share of the cases."""
+        return bool(self.random.random() < share)
+
+    def _tests(self, specimens: int) -> Tests:
+        """Tests of a Huet-Sayegh mix with scatter between and within specimens."""
+        self.temperatures, frequencies = self.pick(SCHEMES)
+        self.frequencies = frequencies[::-1] if self.chance(0.3) else frequencies
+        label = self.pick("{n}", f"{self.specimen} {{n}}", "{letter}", "K1{n}", "B-0{n}", "2{n}/18")
+        names = [label.format(n=n, letter="ABCDE"[n - 1]) for n in range(1, specimens + 1)]
+        level, values = self.random.uniform(26e3, 38e3), {}
+        for name in names:
+            own = self.random.normal(0.0, 0.06)
+            for t, f in product(self.temperatures, self.frequencies):
+                shift = np.exp(2.303 * -9.0 * (t - 15.0) / (110.0 + t - 15.0))
+                reduced = 1j * 2.0 * np.pi * f * 0.15 * shift
+                star = 60.0 + (level - 60.0) / (1.0 + 2.1 * reduced**-0.2 + reduced**-0.57)
+                size = abs(star) * np.exp(own + self.random.normal(0.0, 0.01))
+                angle = max(np.degrees(np.angle(star)) + self.random.normal(0.0, 0.2), 0.5)
+                values[name, t, f] = float(size), float(angle)
+        return Tests(values)
+
+    def e(self, value: float) -> float:
+        """A modulus [MPa] as it is written."""
+        factor, digits = UNITS[self.unit]
+        return round(factor * value, digits) if digits else int(round(factor * value))
+
+    def p(self, value: float) -> float:
+        """A phase [deg] as it is written."""
+        return round(np.radians(value), 4) if self.radians else round(value, 1)
+
+    def t(self, value: float) -> float:
+        """A temperature [degC] as it is written."""
+        shown = round(1.8 * value + 32.0, 1) if self.fahrenheit else value
+        return int(shown) if shown == int(shown) else shown
+
+    def both(self, s: str, t: float, f: float) -> list[float]:
+        """Modulus and phase of a test as they are written."""
+        e, p = self.tests.values[s, t, f]
+        return [self.e(e), self.p(p)]
+
+    def grid(self, merged: bool = False) -> list[tuple[Any, float, float]]:
+        """Temperature as it is shown, temperature and frequency of each condition; merged: shown once."""
+        return [
+            (None if merged and n else self.t(t), t, f)
+            for t in self.temperatures
+            for n, f in enumerate(self.frequencies)
+        ]
+
+    def computed(self, which: int, t: float, f: float, kinds: int) -> list[float]:
+        """Mean, deviation and CV of the numbers written, the first so many."""
+        values = [self.both(s, t, f)[which] for s in self.tests.specimens]
+        mean, deviation = float(np.mean(values)), float(np.std(values, ddof=1))
+        show = (self.e(mean / UNITS[self.unit][0]), self.p(np.degrees(mean) if self.radians else mean))[which]
+        return [
+            show,
+            round(deviation, 4 if self.radians or UNITS[self.unit][1] else 1),
+            round(100 * deviation / mean, 1),
+        ][:kinds]
