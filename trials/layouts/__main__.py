@@ -48,7 +48,9 @@ def summary(files: pd.DataFrame) -> pd.DataFrame:
 def tried_mends(refused: pd.DataFrame) -> pd.DataFrame:
     """By what was wrong with a file: how many were read after one sentence, after several, and not."""
     read, once = refused["result"] == "read", refused["steps"] == 1
-    kinds = refused.assign(files=1, once=read & once, later=read & ~once, never=~read).groupby("slip", sort=False)
+    kinds = refused.assign(files=1, once=read & once, later=read & ~once, never=~read).groupby(
+        "slip", sort=False
+    )
     counts = kinds[["files", "once", "later", "never"]].sum()
     counts.loc["all"] = counts.sum()
     return counts.reset_index()

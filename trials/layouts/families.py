@@ -284,7 +284,46 @@ def units_below(lab: Laboratory) -> Sheets:
     return {"Data": rows}
 
 
-FAMILIES: tuple[Callable[[Laboratory], Sheets], ...] = (
+def matrices_beside(lab: Laboratory) -> Sheets:
+    """A sheet for each specimen, with the matrix of the modulus and that of the phase side by side."""
+    sheets: Sheets = {}
+    size = len(lab.frequencies) + 2
+    for s in lab.tests.specimens:
+        both = [[[lab.name[key]], *matrix(lab, s, which)] for which, key in enumerate("ep")]
+        rows = zip(*both, strict=True)
+        sheets[s.replace("/", "-")] = [[*left, *[None] * (size - len(left)), *right] for left, right in rows]
+    return sheets
+
+
+def sheet_of_each_frequency(lab: Laboratory) -> Sheets:
+    """A sheet for each frequency, which a column says too."""
+    return {
+        f"{f:g} Hz": [
+            [lab.specimen, *(lab.name[key] for key in "tfep")],
+            *([s, lab.t(t), f, *lab.both(s, t, f)] for s in lab.tests.specimens for t in lab.temperatures),
+        ]
+        for f in lab.frequencies
+    }
+
+
+def specimens_beside(lab: Laboratory) -> Sheets:
+    """Frequency, modulus and phase of each specimen side by side, below its name; a block for each temperature."""
+    names = lab.tests.specimens
+    rows: Rows = []
+    for t in lab.temperatures:
+        rows += [
+            [f"{lab.bare['t']} {lab.t(t)} {lab.units['t']}"],
+            [None, *(c for s in names for c in (s, None))],
+        ]
+        rows.append([lab.name["f"], *[lab.name["e"], lab.name["p"]] * len(names)])
+        rows += [[f, *(c for s in names for c in lab.both(s, t, f))] for f in lab.frequencies]
+        rows.append([])
+    return {"Data": rows}
+
+
+Family = Callable[[Laboratory], Sheets]
+LATER_FAMILIES: tuple[Family, ...] = (matrices_beside, sheet_of_each_frequency, specimens_beside)
+FAMILIES: tuple[Family, ...] = (
     long, specimens_over_pairs, quantities_over_specimens, statistics_beside, statistics_below, numbered,
     temperatures_across, matrices_below, matrices_by_sheet, isothermal_columns, sheet_of_each_specimen,
     sheet_of_each_temperature, parts, ampt, utm, cooper, controls, two_mixes, quantities_below,

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import csv
 import zipfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
 
 import openpyxl
 
-from layouts.families import FAMILIES
+from layouts.families import FAMILIES, Family
 from layouts.laboratory import Laboratory, Sheets, Tests
 
 
@@ -21,9 +22,9 @@ def draw(seed: int, folder: Path) -> tuple[str, Path, Tests]:
     return family, save(folder, f"{family}_{seed}", sheets, lab), lab.tests
 
 
-def sheets_of(lab: Laboratory, seed: int) -> tuple[str, Sheets]:
+def sheets_of(lab: Laboratory, seed: int, families: Sequence[Family] = FAMILIES) -> tuple[str, Sheets]:
     """The family and the sheets of a laboratory."""
-    family = FAMILIES[seed % len(FAMILIES)]
+    family = families[seed % len(families)]
     sheets = family(lab)
     if lab.chance(0.25):  # begins in the second column
         sheets = {name: [[None, *row] for row in rows] for name, rows in sheets.items()}

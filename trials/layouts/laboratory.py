@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
@@ -64,7 +65,7 @@ class Tests:
 class Laboratory:
     """How one laboratory writes: its words, units and marks, and the tests that it has."""
 
-    def __init__(self, seed: int, languages: dict[str, tuple[Any, ...]] = LANGUAGES) -> None:
+    def __init__(self, seed: int, languages: Mapping[str, tuple[Any, ...]] = LANGUAGES) -> None:
         """Draw words, units and tests."""
         self.random = np.random.default_rng(seed)
         pick = self.pick
