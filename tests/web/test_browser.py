@@ -92,13 +92,18 @@ def drop(page, *paths, field="#files"):
     page.call("DOM.setFileInputFiles", nodeId=node, files=[str(path) for path in paths])
 
 
-def look(page, name, width, dark):
-    """No part wider than the window; a picture where SCREENSHOTS names a folder."""
+def sized(page, width, dark):
+    """A window of this width, in the light or in the dark."""
     page.call(
         "Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600
     )
     scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
     page.call("Emulation.setEmulatedMedia", features=scheme)
+
+
+def look(page, name, width, dark):
+    """No part wider than the window; a picture where SCREENSHOTS names a folder."""
+    sized(page, width, dark)
     time.sleep(0.5)
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     if folder := os.environ.get("SCREENSHOTS"):
@@ -127,11 +132,45 @@ def compared(page, folder):
     assert "both mixes" in page.evaluate("document.getElementById('take').textContent")
 
 
+def matrices(path):
+    """|E*| and phase over temperature and frequency, in words that the reader does not know."""
+    book = openpyxl.Workbook()
+    for specimen in "AB":
+        sheet = book.create_sheet(specimen)
+        for name, unit, scale in (("Kompleksimoduuli", "MPa", 1e3), ("Vaihekulma", "°", 1.0)):
+            sheet.append([f"{name} ({unit})"])
+            sheet.append(["Lämpötila (°C)", *(f"{f} Hz" for f in (0.1, 1, 10))])
+            for t in (4, 12, 20, 35):
+                sheet.append(
+                    [t, *(round(scale * (15 - 0.3 * t + n + (specimen == "B")), 1) for n in (0, 1, 2))]
+                )
+            sheet.append([])
+    book.save(path)
+    return path
+
+
+def test_words_of_a_layout_are_said_in_menus(page, address, tmp_path):
+    page.open(address, 1280)
+    drop(page, matrices(tmp_path / "t.xlsx"))
+    until(page, "!document.getElementById('error').hidden")
+    for name, quantity in (
+        ("Lämpötila", "temperature_C"),
+        ("Kompleksimoduuli", "E_MPa"),
+        ("Vaihekulma", "phase_deg"),
+    ):
+        row = f"[...document.querySelectorAll('#columns tr')].find(r => r.textContent.startsWith('{name}'))"
+        until(page, f"Boolean({row})")
+        choose(page, f"{row}.querySelector('select')", quantity)
+        until(page, "document.getElementById('reading').hidden")
+    until(page, "!document.getElementById('go').hidden")
+    assert "24 tests of 2 specimens (A, B)" in page.evaluate("document.getElementById('what').textContent")
+
+
 def test_from_drop_to_download(page, address, tmp_path):
     page.open(address, 1280)
     drop(page, workbook(tmp_path / "t.xlsx"))
     until(page, "!document.getElementById('error').hidden")
-    assert "no column for |E*|" in page.evaluate("document.getElementById('error').textContent")
+    assert "'Result' is not known" in page.evaluate("document.getElementById('error').textContent")
     row = "[...document.querySelectorAll('#columns tr')].find(r => r.textContent.startsWith('Result [GPa]'))"
     choose(page, f"{row}.querySelector('select')", "E_GPa")
     until(page, "!document.getElementById('go').hidden && document.getElementById('error').hidden")
@@ -153,10 +192,11 @@ def test_from_drop_to_download(page, address, tmp_path):
     with urllib.request.urlopen(pdf) as answer:
         assert answer.read(5) == b"%PDF-"
     assert {"law_abaqus.inp", "law_ansys.inp", "law_comsol.txt", "law_mepdg.csv", "law_xlsx.xlsx"} <= names
-    page.load("Page.reload")  # keeps the answer
-    until(page, "document.getElementById('result')?.hidden === false")
     for width in (1280, 390):
         for dark in (False, True):
+            sized(page, width, dark)
+            page.load("Page.reload")  # keeps the answer
+            until(page, "document.getElementById('result')?.hidden === false")
             look(page, "result", width, dark)
     assert page.evaluate("document.title") == "asphalt-nscd"  # HTML in cells stayed text
     assert "MPa" in page.evaluate("document.getElementById('value').textContent")

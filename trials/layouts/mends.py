@@ -44,8 +44,11 @@ class User:
     def restore(self, wrong: str) -> None:
         """Write the right number into the cells that hold this text."""
         for name, rows in self.sheets.items():
-            for row, right in zip(rows, self.right[name], strict=True):
-                row[:] = [b if str(a) == wrong else a for a, b in zip(row, right, strict=True)]
+            for row, right in zip(rows, self.right.get(name, []), strict=False):
+                row[:] = [
+                    b if str(a) == wrong else a
+                    for a, b in zip(row, [*right, *row[len(right) :]], strict=False)
+                ]
 
     def say(self, sentence: str) -> None:
         """Say each `--column`, with the user's own name and unit for NAME, or the one of several that is right."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -47,8 +47,8 @@ LATER = {
         ("Standumo modulis", "Kompleksinis modulis"), ("Fazės kampas",), ("Dažnis",), ("Bandymo temp.",), ("Bandinys",),
         ("Vidurkis", "Vid."), ("Stand. nuokrypis",), ("Variacijos koef.",), "Mišinys"),
     "et": (
-        ("Jäikusmoodul", "Kompleksmoodul"), ("Faasinurk",), ("Sagedus",), ("Katsetemp.", "Temperatuur"), ("Proovikeha",),
-        ("Keskmine",), ("Standardhälve",), ("Var.kordaja",), "Segu"),
+        ("Jäikusmoodul", "Kompleksmoodul"), ("Faasinurk",), ("Sagedus",), ("Katsetemp.", "Temperatuur"),
+        ("Proovikeha",), ("Keskmine",), ("Standardhälve",), ("Var.kordaja",), "Segu"),
     "ru": (
         ("Модуль упругости", "Динамический модуль"), ("Фазовый угол", "Сдвиг фаз"), ("Частота",), ("Температура", "Т"),
         ("Образец", "№ обр."), ("Среднее", "Ср."), ("Ст. откл.",), ("К. вар.",), "Смесь"),

@@ -18,7 +18,7 @@ from asphalt_nscd.forecasting.forecast import INPUTS, OF_THE_MODEL, Forecast
 from asphalt_nscd.forecasting.recipe import Recipe
 from asphalt_nscd.forecasting.rivals import RIVALS, volumetrics
 from asphalt_nscd.forecasting.scheme import FILLER, binder_volume, modulus_of_mix
-from asphalt_nscd.measurements.units import PSI
+from asphalt_nscd.measurements.units import PSI, celsius_of_fahrenheit
 from asphalt_nscd.rheology.conversion import kelvin_chain
 from asphalt_nscd.rheology.laws_io import chain_content
 from asphalt_nscd.rheology.shift import Arrhenius
@@ -145,7 +145,7 @@ def caution(found: Forecast) -> str:
     told = [recipe.caveat]
     places = {"forecast.csv": recipe.temperature, "the headline": np.array([_shown_temperature(found)])}
     if recipe.shifted:
-        places["aashtoware.csv"] = (np.array(DESIGN_F) - 32.0) / 1.8
+        places["aashtoware.csv"] = celsius_of_fahrenheit(np.array(DESIGN_F))
     for where, temperature in places.items():
         beyond = np.unique(temperature[recipe.outside(temperature)])
         if recipe.measured and beyond.size:
@@ -205,7 +205,7 @@ def design_points(found: Forecast) -> pd.DataFrame:
     """
     rows = []
     for fahrenheit in DESIGN_F:
-        celsius = (fahrenheit - 32.0) / 1.8
+        celsius = celsius_of_fahrenheit(fahrenheit)
         told = np.full(len(DESIGN_HZ), np.nan)
         if _reaches(found, celsius):
             told = (np.abs(found.modulus_at(2.0 * np.pi * np.array(DESIGN_HZ), celsius)) / PSI).round()

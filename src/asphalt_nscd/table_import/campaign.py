@@ -119,6 +119,11 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
         notes.append("forces and displacements are taken as of two-point bending")
         return "bending"
     found = {kind for part in parts for kind in _schemes_in(part.path)}
+    if found == {UNKNOWN}:
+        notes.append(
+            "the file names four-point bending or indirect tension: no fault of another apparatus is sought"
+        )
+        return UNKNOWN
     if len(found) == 1:
         kind = found.pop()
         way = choice("say --measured-in", IN_THE_MENU)
@@ -194,12 +199,16 @@ def _one_mix(parts: Sequence[Part]) -> str:
 def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:
     """Tests of a file; of several sheets each that holds tests, the others named in the notes."""
     require_readable(path, "check the path")
-    sheets = read_sheets(path, wanted.sheet)
+    return _told_names(path, read_sheets(path, wanted.sheet), notes, wanted)
+
+
+def _told_names(path: Path, sheets: list[Sheet], notes: list[str], wanted: _Wanted) -> list[Part]:
+    """Tests of sheets, in words that the user said where the reader does not know them."""
     try:
         return _of_sheets(path, sheets, notes, wanted)
     except UnreadNames as error:
-        if wanted.columns and (ours := named(sheets, wanted.columns)):
-            return _of_sheets(path, ours, notes, wanted._replace(columns={}))
+        if ours := named(sheets, wanted.columns):
+            return _told_names(path, ours, notes, wanted._replace(columns={}))
         raise with_names(error, path, sheets) from None
 
 

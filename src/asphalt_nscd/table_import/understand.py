@@ -27,7 +27,7 @@ from asphalt_nscd.table_import.words import ABSENT
 TEXTS = ("specimen", "replicate", "origin")
 KEYS = ("temperature_C", "frequency_Hz")
 FURTHER = ("nominal_temperature_C", "amplitude_m", "order", "cycles", "time_step_s")  # a diagnosis uses them
-_WORDS = {
+WORDS_OF = {
     "temperature_C": "temperature",
     "frequency_Hz": "frequency",
     "E_MPa": "|E*|",
@@ -265,7 +265,7 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     _require_plain(cells, missing["moduli"])
     form = min(missing, key=lambda form: len(missing[form]))  # the nearer one is what was meant
     nothing = {"E_MPa", "F0_N", "z0_m"}.isdisjoint(columns)
-    *words, last = (_WORDS[name] for name in missing[form])
+    *words, last = (WORDS_OF[name] for name in missing[form])
     named = ", ".join(name[:60] for name in cells.header)
     wanted = f"columns for {', '.join(words)} and {last}" if words else f"column for {last}"
     raise (NotTests if nothing else UnreadNames)(

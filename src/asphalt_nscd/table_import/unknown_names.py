@@ -13,6 +13,7 @@ from asphalt_nscd.table_import.cells import Row, Sheet
 from asphalt_nscd.table_import.decimals import Number
 from asphalt_nscd.table_import.heading import known, quantity_of, read_heading, strip_conditions
 from asphalt_nscd.table_import.quantities import LONGEST_NAME, MEASURED, derived, recognise, unit_in, units_in
+from asphalt_nscd.table_import.understand import WORDS_OF
 
 # What a test needs: what an unknown name with such a unit most likely is, and all that give it.
 _NEEDED = {
@@ -21,7 +22,6 @@ _NEEDED = {
     "E_MPa": ("E_MPa", "E1_MPa", "E2_MPa", "F0_N"),
     "phase_deg": ("phase_deg", "tan_delta", "psi_deg", "E2_MPa"),
 }
-_WORDS = {"E_MPa": "|E*|", "phase_deg": "phase", "temperature_C": "temperature", "frequency_Hz": "frequency"}
 MOST_OFFERED = 4  # names for one quantity
 _UNIT = re.compile(r"[\s_]*(?:[(\[{]([^)\]}]*)[)\]}]|[,/]\s*(\S+)|\s(\S{2,})|\s?([°º]\s?[CF]?))(?=\s|$)")
 _NUMBERED = re.compile(r"[\s_.#-]*(?:\d{1,3}|(?<=[\s_-])[A-Z]\d{0,3})$")
@@ -55,12 +55,12 @@ def with_names(error: InputError, path: Path, sheets: Sequence[Sheet]) -> InputE
         unknown += [repr(name) for name, _ in offered]
     verb = "is" if len(unknown) == 1 else "are"
     way = choice(f"say {' '.join(cues)}", "choose in the menus below what they hold")
-    ours = joined([_WORDS[quantity] for quantity in found])
+    ours = joined([WORDS_OF[quantity] for quantity in found])
     return type(error)(f"{path}: {joined(unknown)} {verb} not known; {way}, or write {ours} for them.")
 
 
 def named(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Sheet]:
-    """The sheets with our words for the names that the user chose, wherever these stand; empty if one has a unit."""
+    """The sheets with our words for the names that the user chose, wherever these stand; empty if it must not be."""
     texts = {
         cell for sheet in sheets for _, row in sheet.rows for cell in row if not isinstance(cell, Number)
     }
@@ -79,11 +79,14 @@ def named(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Sheet]:
             or told not in (None, column.unit)
         ):
             return []
-        word = _WORDS.get(column.quantity) or (wanted.rpartition("_")[0] if column.unit else wanted)
+        stem = wanted.rpartition("_")[0] if column.unit else wanted
+        word = "|E*|" if column.quantity == "E_MPa" else stem
         for text in these:
             rest = text[len(name) :]
             unit = "" if not column.unit or unit_in(f"x{rest}") else f" ({column.unit})"
             ours[text] = f"{word}{rest}{unit}"
+    if not ours:
+        return []
     notes = [f"{name!r} taken for {wanted}, as you chose" for wanted, name in chosen.items()]
     return [
         replace(

@@ -29,12 +29,17 @@ from asphalt_nscd.measurements.kinds import TEST_TYPES
 from asphalt_nscd.reporting.settings import Heading
 from asphalt_nscd.table_import.campaign import TABLES
 from asphalt_nscd.table_import.quantities import MEASURED
+from asphalt_nscd.table_import.understand import WORDS_OF
 from asphalt_nscd.web.work import SECONDS_TO_DIAGNOSE, SECONDS_TO_READ, Choices, Job
 
 MOST_BYTES = 40_000_000  # of all files of one drop
 MOST_FILES = 100
 MOST_DESKS = 20
-USUAL = ("E_MPa", "phase_deg", "temperature_C", "frequency_Hz", "specimen")  # first in the menus of columns
+# First in the menus of columns.
+USUAL = (
+    "E_MPa", "E_GPa", "E_ksi", "phase_deg", "phase_rad", "temperature_C", "temperature_F", "frequency_Hz", "specimen",
+    "mix",
+)  # fmt: skip
 # What a page may load: nothing from elsewhere.
 # Inline, because each of our pages is one file with its own style and script.
 POLICY = (
@@ -156,12 +161,14 @@ def create_app(token: str | None = None) -> Flask:
     @app.get("/<token>/<desk>/")
     def page(token: str, desk: str) -> str:
         _named(desk)
-        names = dict.fromkeys((*USUAL, *MEASURED))
-        units = {name: list(MEASURED[name][1]) for name in names}
+        words = {name: WORDS_OF.get(name, name.rpartition("_")[0] or name) for name in MEASURED}
+        units = {name: list(MEASURED[name][1]) for name in MEASURED}
         heading = {name: one.help for name, one in options_of(Heading).items()}
         return render_template(
             "page.html",
             units=units,
+            words=words,
+            usual=USUAL,
             laws=TITLES,
             kinds=TEST_TYPES,
             endings=", ".join(TABLES),

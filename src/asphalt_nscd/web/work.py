@@ -158,34 +158,37 @@ def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
 
 def _columns(paths: Sequence[Path]) -> list[dict[str, str]]:
     """Each column of the files, by its name, with the quantity and the unit it is taken for and its first cells."""
+    from asphalt_nscd.table_import.cells import read_sheets
     from asphalt_nscd.table_import.melt import headings_of
+    from asphalt_nscd.table_import.unknown_names import unknown_names
 
     found: dict[str, dict[str, str]] = {}
     for path in paths:
-        try:
+        tables, unknown = [], {}
+        with suppress(InputError):
+            unknown = unknown_names(read_sheets(path))
             tables = _tables(path)
-        except InputError:
-            continue
         for cells in tables:
             for n, heading in enumerate(headings_of(cells)):
                 column = heading.column
-                sample = [row[n] for _, row in cells.rows if row[n]][:3]
+                sample = list(dict.fromkeys(row[n] for _, row in cells.rows if row[n]))[:3]
                 if column is None and not sample:
                     continue
-                shown = found.setdefault(
-                    cells.header[n],
-                    {
-                        "name": cells.header[n],
-                        "quantity": "" if column is None else column.quantity,
-                        "unit": "" if column is None else column.unit or _missing_unit(column.quantity),
-                        "condition": "",
-                        "cells": ", ".join(sample),
-                    },
-                )
+                unit = "" if column is None else column.unit or _missing_unit(column.quantity)
+                quantity = "" if column is None else column.quantity
+                shown = found.setdefault(cells.header[n], _column(cells.header[n], quantity, unit, sample))
                 # Columns of several specimens may have one name.
                 conditions = (shown["condition"], *heading.at.values())
                 shown["condition"] = ", ".join(dict.fromkeys(filter(None, conditions)))
+        # Of a layout that cannot be told before they are known.
+        for name in (name for names in unknown.values() for name in names):
+            if not any(header.startswith(name) for header in found):
+                found[name] = _column(name, "", "", [])
     return list(found.values())[:60]
+
+
+def _column(name: str, quantity: str, unit: str, sample: list[str]) -> dict[str, str]:
+    return {"name": name, "quantity": quantity, "unit": unit, "condition": "", "cells": ", ".join(sample)}
 
 
 def _tables(path: Path) -> list[Cells]:

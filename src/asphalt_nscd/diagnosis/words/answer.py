@@ -67,7 +67,7 @@ def _template() -> Template:
     )
     names |= {"CATALOGUE": CATALOGUE, "LEAST_ISOTHERMS": LEAST_ISOTHERMS, "NAMED": NAMED, "HALF": HALF}
     names |= {"OFF_TARGET": OFF_TARGET, "UNKNOWN": UNKNOWN, "ORIGINS": ORIGINS}
-    names |= {"TESTS_OF": TEST_TYPES | {UNKNOWN: "tests of a kind that was not said"}}
+    names |= {"TESTS_OF": TEST_TYPES | {UNKNOWN: "tests of another kind, or of one that was not said"}}
     return template("diagnosis/words/words.j2", vars(sentences), names)
 
 
