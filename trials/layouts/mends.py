@@ -30,8 +30,7 @@ class User:
     def obey(self, sentence: str) -> bool:
         """Do what a sentence asks; False if it asks nothing that can be done."""
         for pattern, act in ACTS:
-            if found := re.search(pattern, sentence):
-                act(self, found)
+            if (found := re.search(pattern, sentence)) and act(self, found) is not False:
                 return True
         return False
 
@@ -108,10 +107,14 @@ def _with_specimens(user: User, found: re.Match[str]) -> None:
     }
 
 
-def _line_above(user: User, found: re.Match[str]) -> None:
+def _line_above(user: User, found: re.Match[str]) -> bool:
+    """If all tests are at one temperature."""
     ((_, t, _), *_) = user.lab.tests.values
+    if any(other != t for _, other, _ in user.lab.tests.values):
+        return False
     line = f"T = {user.lab.t(t)} {user.lab.units['t']}"
     user.sheets = {name: [[line], *rows] for name, rows in user.sheets.items()}
+    return True
 
 
 def _word_of_specimens(user: User, found: re.Match[str]) -> None:
@@ -124,7 +127,7 @@ def _exchanged(user: User, found: re.Match[str]) -> None:
     user.change(lambda cell: two.get(cell, cell))
 
 
-ACTS: tuple[tuple[str, Callable[[User, re.Match[str]], None]], ...] = (
+ACTS: tuple[tuple[str, Callable[[User, re.Match[str]], Any]], ...] = (
     (r'--only-mix "([^"]+)"', lambda user, found: setattr(user, "mix", found[1])),
     (r"a line 'T = 20 °C' above the names", _line_above),
     (r"add a column specimen\.$", _with_specimens),
@@ -135,7 +138,7 @@ ACTS: tuple[tuple[str, Callable[[User, re.Match[str]], None]], ...] = (
     (r"column '([^']+)' holds logarithms; give the numbers themselves", _numbers),
     (r"appears twice; remove one", _first_alone),
     (r"Write it into the name of the column|write the unit \S+ into|multiply|is the unit", _other_unit),
-    (r"exchange the two names|names of \|E\*\| and phase exchanged", _exchanged),
+    (r"exchange the two names|are as moduli; write|names of \|E\*\| and phase exchanged", _exchanged),
     (r"name the specimens above their matrices, as in `Specimen \| A`", _word_of_specimens),
     (r"--column (\S+?)=", lambda user, found: user.say(found.string)),
 )  # fmt: skip

@@ -69,9 +69,7 @@ class _Matrix:
 
 def matches(sheets: Sequence[Sheet]) -> bool:
     """Whether one of the sheets holds a matrix; |E*| may stand on one and the phase on another."""
-    return any(one.values for sheet in sheets for one in _matrices(sheet.rows, sheet.called)) or bool(
-        _columns(sheets)
-    )
+    return any(_matrices(sheet.rows, sheet.called) for sheet in sheets) or bool(_columns(sheets))
 
 
 def read(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
@@ -131,8 +129,22 @@ def _agreed(path: Path, matrices: list[_Matrix]) -> dict[str, str]:
     return names
 
 
-def _matrices(rows: list[Row], called: str) -> Iterator[_Matrix]:
-    """The matrices in the rows of a sheet."""
+def _matrices(rows: list[Row], called: str) -> list[_Matrix]:
+    """The matrices in the rows of a sheet, below each other or side by side with an empty column between them."""
+    whole = [one for one in _below(rows, called) if one.values]
+    if whole or not rows:
+        return whole
+    size = max(len(row) for _, row in rows)
+    ends = [n for n in range(size) if not any(row[n : n + 1] != [""] and row[n:] for _, row in rows)]
+    parts: list[list[Row]] = [
+        [(line, part) for line, row in rows if any(part := row[start + 1 : end])]
+        for start, end in zip([-1, *ends], [*ends, size], strict=True)
+    ]
+    return [one for part in parts if ends for one in _below(part, called) if one.values]
+
+
+def _below(rows: list[Row], called: str) -> Iterator[_Matrix]:
+    """Matrices below each other."""
     at, end, specimen = 0, 0, condition(called).get(SPECIMEN, "")
     title = read_heading(called)
     while at < len(rows):

@@ -15,7 +15,7 @@ from asphalt_nscd.table_import.header_lines import (
     sections,
     tabulated,
 )
-from asphalt_nscd.table_import.heading import TEMPERATURES, known, quantity_of
+from asphalt_nscd.table_import.heading import HERTZ, TEMPERATURES, condition, known, quantity_of
 from asphalt_nscd.table_import.melt import held, holds_means
 from asphalt_nscd.table_import.names import specimen_of
 from asphalt_nscd.table_import.words import COMPUTED_SHEET
@@ -68,7 +68,9 @@ def _told_by_sheet(cells: Cells, name: str, chosen: Mapping[str, str]) -> Cells:
             told[f"T (°{bare[2].upper() if bare else 'C'})"] = temperature
     elif temperature and not bare and not _all_at(cells, temperature):
         temperature = None  # a part of the specimen's own name
-    if "specimen" not in has and not bare:
+    if frequency := condition(name).get(HERTZ):
+        told |= {} if "frequency_Hz" in has else {HERTZ: frequency}
+    elif "specimen" not in has and not bare:
         told["specimen"] = named.specimen if temperature else name
     return add_constants(cells, told, "the name of the sheet")
 

@@ -37,6 +37,7 @@ WORDS_OF = {
     "psi_deg": "phase between force and displacement",
 } | PARTS
 MAY_BE_ABSENT = (*QUALITY, "microstrain", "air_voids_percent", "vma_percent", "vfa_percent")
+LARGEST_ANGLE = 360.0  # deg
 FEW = 0.125  # share of the tests that may lack a phase: of more the column is not what it seems
 # Form, the angle that it lacks, the other one that stands there, and whose phase is wanted.
 _ANGLES = (
@@ -253,6 +254,7 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     # Unless numbers are left under a name that is not known, which could be the phase.
     left = set(range(len(cells.header))) - {place for places in columns.values() for place, _ in places}
     unread = any(re.match(r"[-+]?[.,]?\d", row[place]) for _, row in cells.rows for place in left)
+    _require_phases(cells, columns)
     if missing["moduli"] == ["phase_deg"] and "psi_deg" not in columns and not unread:
         return "modulus", ("E_MPa",)
     for form, wanted, angle, of in _ANGLES:
@@ -271,6 +273,17 @@ def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequen
     raise (NotTests if nothing else UnreadNames)(
         f"{cells.path}: no {wanted} (found: {named}); {_mend(missing[form])}."
     )
+
+
+def _require_phases(cells: Cells, columns: Mapping[str, list[Place]]) -> None:
+    """Refuse a phase that must be a modulus, where none is named."""
+    for place, _ in columns.get("phase_deg", []):
+        read = [value for _, row in cells.rows if (value := number(row[place])) is not None]
+        if "E_MPa" not in columns and np.median(read or [0.0]) > LARGEST_ANGLE:
+            raise InputError(
+                f"{cells.path}: the numbers below {cells.header[place]!r} are as moduli; write |E*| with its unit for "
+                "this name."
+            )
 
 
 def _mend(missing: Sequence[str]) -> str:
@@ -380,22 +393,28 @@ def _telling(cells: Cells, tests: list[tuple[object, ...]]) -> str:
 
 def _specimens(cells: Cells, values: dict[str, Values]) -> str:
     """Put a specimen to each test, and say how it was told."""
-    if "specimen" in values:
-        return ""
-    if "replicate" in values:
+    note = ""
+    if "specimen" not in values and "replicate" in values:
         values["specimen"] = values.pop("replicate")
-        return f"{len(set(values['specimen']))} replicates, taken as specimens"
-    values["specimen"] = ["1"] * len(cells.rows)
-    distinguishing = [values[name] for name in (*KEYS, "amplitude_m", "order", "cycles") if name in values]
+        note = f"{len(set(values['specimen']))} replicates, taken as specimens"
+    named = "specimen" in values
+    if not named:
+        values["specimen"] = ["1"] * len(cells.rows)
+        note = "no column of specimens, so all tests are taken as of one specimen"
+    wanted = ("specimen", "replicate", *KEYS, "amplitude_m", "order", "cycles")
+    tests = list(zip(*(values[name] for name in wanted if name in values), strict=True))
     first: dict[tuple[object, ...], int] = {}
-    for (line, _), *test in zip(cells.rows, *distinguishing, strict=True):
+    for (line, _), test in zip(cells.rows, tests, strict=True):
         # Nothing tells whether it is another specimen or the same again, which scatter differently.
-        earlier = first.setdefault(tuple(test), line)
-        if earlier != line:
-            cue = _telling(cells, list(zip(*distinguishing, strict=True)))
-            way = f", or say that one is, {cue}" if cue else ""
-            raise InputError(
-                f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens "
-                f"apart; add a column specimen{way}."
-            )
-    return "no column of specimens, so all tests are taken as of one specimen"
+        earlier = first.setdefault(test, line)
+        if earlier == line:
+            continue
+        cue = _telling(cells, tests)
+        if named and not cue:
+            break  # a test that is repeated is refused where all parts are known
+        way = f", or say that one is, {cue}" if cue else ""
+        raise InputError(
+            f"{cells.path}, line {line}: repeats the test of line {earlier}, and no column tells specimens apart; add "
+            f"a column specimen{way}."
+        )
+    return note
