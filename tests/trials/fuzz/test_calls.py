@@ -6,14 +6,14 @@ import time
 
 import numpy as np
 import pytest
-from fuzz import calls
+from fuzz import calls, draws
 
 import asphalt_nscd as an
 
 
 def test_a_seed_repeats_its_call_and_all_functions_are_called():
-    assert {calls.called(seed) for seed in range(600)} == {one.__name__ for one in calls.SHARES}
-    assert sum(calls.SHARES.values()) == pytest.approx(1.0)
+    assert {calls.called(seed) for seed in range(600)} == {one.__name__ for one in draws.SHARES}
+    assert sum(draws.SHARES.values()) == pytest.approx(1.0)
     assert calls.called(7) == calls.called(7)
 
 
