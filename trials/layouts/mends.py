@@ -127,6 +127,11 @@ def _exchanged(user: User, found: re.Match[str]) -> None:
     user.change(lambda cell: two.get(cell, cell))
 
 
+def _renamed(user: User, found: re.Match[str]) -> None:
+    """Each specimen with such a name, from its first letter or digit on."""
+    user.change(lambda cell: re.sub(r"^[\W_]+", "", cell) if cell in user.lab.tests.specimens else cell)
+
+
 ACTS: tuple[tuple[str, Callable[[User, re.Match[str]], Any]], ...] = (
     (r'--only-mix "([^"]+)"', lambda user, found: setattr(user, "mix", found[1])),
     (r"a line 'T = 20 °C' above the names", _line_above),
@@ -134,6 +139,7 @@ ACTS: tuple[tuple[str, Callable[[User, re.Match[str]], Any]], ...] = (
     (r"write it after the name, as in", _with_units),
     (r"'([^']+)' is not a number; write a number", lambda user, found: user.restore(found[1])),
     (r"is text; enter it as a number|write it without separators|without separators", _grouped),
+    (r"must begin with a letter or digit .*; rename it", _renamed),
     (r"turn the table so that each test has a row", _turned),
     (r"column '([^']+)' holds logarithms; give the numbers themselves", _numbers),
     (r"appears twice; remove one", _first_alone),

@@ -206,7 +206,7 @@ def _of_specimens(rows: list[Row]) -> Iterator[_Matrix]:
         measures = {n: cell for n, cell in labels.items() if not OF_SPECIMENS.fullmatch(cell)}
         if (
             column is None
-            or not column.unit
+            or column.unit == ""
             or any(units_in(cell) and not is_unit(cell) for cell in measures.values())
         ):
             continue

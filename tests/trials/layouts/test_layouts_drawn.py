@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from layouts.families import FAMILIES
+from layouts.families import FAMILIES, LATER_FAMILIES
 from layouts.files import draw
 from layouts.mends import User
-from layouts.refusals import obeyed
+from layouts.refusals import LATER, obeyed
 from layouts.score import outcome
 
 
@@ -34,6 +34,11 @@ def test_a_wrong_reading_is_seen(tmp_path):
 def test_what_a_refusal_asks_mends_the_file(tmp_path, seed):
     tried = obeyed(seed, tmp_path)
     assert tried is None or tried.result == "read", tried.sentences
+
+
+@pytest.mark.parametrize("seed", [8_000_057, 8_000_058])
+def test_what_a_draw_showed_is_mended(tmp_path, seed):
+    assert obeyed(seed, tmp_path, LATER, [*LATER_FAMILIES, *FAMILIES]).result == "read"
 
 
 def test_a_mend_that_is_not_done_leaves_the_file_refused(tmp_path, monkeypatch):
