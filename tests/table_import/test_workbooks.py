@@ -164,6 +164,17 @@ def test_the_mend_names_the_column_and_its_unit(tmp_path):
         assert {key: e for key, (e, _) in held(campaign).items()} == {key: e for key, (e, _) in TESTS.items()}
 
 
+def test_a_word_is_said_wherever_it_stands_but_not_in_another_unit(tmp_path):
+    rows = [
+        [None, "Moduuli 4 °C", "Moduuli 20 °C", "Kulma 4 °C (°)", "Kulma 20 °C (°)"],
+        [1, 9e3, 5e3, 12, 20],
+    ]
+    rows = [["f (Hz)", *rows[0][1:]], *rows[1:], [10, 12e3, 7e3, 9, 16]]
+    campaign = read(tmp_path, rows, "t.xlsx", E_MPa="Moduuli", phase_deg="Kulma")
+    assert sorted(campaign.table.numbers("E_MPa")) == [5e3, 7e3, 9e3, 12e3]
+    refused(read, tmp_path, rows, "t.xlsx", names=["Kulma"], E_MPa="Moduuli", phase_rad="Kulma")
+
+
 def test_tables_below_lines_of_their_specimens(tmp_path):
     rows = []
     for s in SPECIMENS:

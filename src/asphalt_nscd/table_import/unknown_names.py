@@ -61,30 +61,23 @@ def with_names(error: InputError, path: Path, sheets: Sequence[Sheet]) -> InputE
 
 def named(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Sheet]:
     """The sheets with our words for the names that the user chose, wherever these stand; empty if it must not be."""
-    texts = {
-        cell for sheet in sheets for _, row in sheet.rows for cell in row if not isinstance(cell, Number)
-    }
+    cells = [cell for sheet in sheets for _, row in sheet.rows for cell in row]
+    texts = {cell for cell in cells if not isinstance(cell, Number)}
     ours: dict[str, str] = {}
     for wanted, name in chosen.items():
         column = recognise(wanted)
-        exact = {name} & texts
         begins = re.compile(rf"{re.escape(name)}(?![^\W\d_])")
-        these = exact or {text for text in texts if begins.match(text)}
-        told = unit_in(strip_conditions(name))
-        if (
-            column is None
-            or column.unit is None
-            or not these
-            or derived(name)
-            or told not in (None, column.unit)
-        ):
+        these = {name} & texts or {text for text in texts if begins.match(text)}
+        if column is None or column.unit is None or derived(name) or not these:
             return []
-        stem = wanted.rpartition("_")[0] if column.unit else wanted
-        word = "|E*|" if column.quantity == "E_MPa" else stem
+        word = wanted.rpartition("_")[0] if column.unit else wanted
         for text in these:
+            told = [unit for unit in units_in(text) if unit in MEASURED[column.quantity][1]]
+            if told not in ([], [column.unit]):
+                return []
             rest = text[len(name) :]
-            unit = "" if not column.unit or unit_in(f"x{rest}") else f" ({column.unit})"
-            ours[text] = f"{word}{rest}{unit}"
+            behind = not column.unit or column.unit in units_in(rest)
+            ours[text] = f"{'|E*|' if word == 'E' else word}{rest}{'' if behind else f' ({column.unit})'}"
     if not ours:
         return []
     notes = [f"{name!r} taken for {wanted}, as you chose" for wanted, name in chosen.items()]
