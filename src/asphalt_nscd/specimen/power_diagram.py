@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 
+from asphalt_nscd.files.errors import InputError
+
 FILLED = (
     1e-9  # cells that miss the volume of the region by less, relatively, were cut by every image they need
 )
@@ -73,7 +75,7 @@ def power_diagram(position: np.ndarray, radius: np.ndarray, region: Region) -> F
     """Facets of the power diagram of spheres in a region, one row each; `position` (n, 3) and `radius` (n,) in m.
 
     Facets smaller than NEGLIGIBLE of the section of the smaller sphere are left out. Spheres near a face are mirrored,
-    then those farther away, until the cells fill the region. Raises ArithmeticError where they never do.
+    then those farther away, until the cells fill the region. Raises InputError where they never do.
     """
     distance = region.offset - position @ region.normal.T
     # far enough that each face mirrors a sphere: the diagram is open where one mirrors none
@@ -83,7 +85,10 @@ def power_diagram(position: np.ndarray, radius: np.ndarray, region: Region) -> F
         if abs(facets.volume / volume - 1.0) < FILLED:
             return Facets(*(value[kept] for value in vars(facets).values()))
         if within > distance.max():
-            raise ArithmeticError(f"its cells fill {facets.volume / volume:.9f} of the region, not all")
+            raise InputError(
+                f"the cells of the spheres fill {facets.volume / volume:.9f} of the specimen, not all: their places or "
+                "sizes are too far from those of grains; bond them by area paper."
+            )
         within *= 2.0
 
 

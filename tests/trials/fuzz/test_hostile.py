@@ -14,7 +14,9 @@ from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 NONE = np.empty((0, 3))
 
 
-@pytest.mark.parametrize("seed", [*range(25), 440])  # 440: bonds that leave a sphere free
+@pytest.mark.parametrize(
+    "seed", [*range(25), 440, 5183]
+)  # bonds that leave a sphere free, cells that overlap
 def test_a_hostile_call_ends_in_a_result_or_a_sentence(seed):
     call = hostile(np.random.default_rng([seed, 56]))
     with warnings.catch_warnings():
