@@ -249,9 +249,14 @@ def test_laws_of_measured_mixes():
 def test_what_explains_the_excess_phase():
     table = published("measured/budget").set_index(["population", "temperature_C"])
     assert table.index[table.verdict == "explained"].tolist() == [("ncat", 20.0)]
-    assert (table.loc["mixes50"].verdict == "not").all() and table.verdict[("ncat", 40.0)] == "in part"
+    assert (table.loc["mixes50"].verdict == "not").all()
     ncat, hot = table.loc["ncat"], table.loc["mixes50"].loc[37.8:]
-    assert f"(r = {ncat.correlation[40.0]:.2f})" in page("measured")
+    taken = 1.0 - ncat.loc[40.0, ["rms_less_reading_deg", "rms_less_all_deg"]] / ncat.rms_deg[40.0]
+    assert f"takes {100 * taken.iloc[0]:.0f} % of the rms. With the other two it is a quarter" in page(
+        "measured"
+    )
+    assert f"{100 * taken.iloc[0]:.0f} % of it at 40 °C" in readme() and 0.24 < taken.iloc[1] < 0.26
+    assert f"(r = {ncat.correlation[40.0]:.1f})" in page("measured")
     high = ncat.reading_deg[4.0] - ncat.measured_deg[4.0]
     assert f"reading alone is {high:.2f}° too large" in page("measured")
     assert ncat.rms_less_all_deg[4.0] < ncat.rms_less_mean_deg[4.0]
@@ -296,7 +301,9 @@ def test_strains_that_contradict():
     table = published("measured/amplitude")
     assert (table.contradicted == table.test.map({"uniaxial": "yes", "bending": "no"})).all()
     most = table[(table.test == "uniaxial") & (table.mechanism == "all")].iloc[0]
-    assert 8.0 < most.measured_E_percent / most.predicted_E_percent < 13.0
+    assert most.measured_E_percent / most.predicted_E_percent > 10.0 and "factor of ten or more" in page(
+        "measured"
+    )
 
 
 def test_verdicts_on_the_paper():
