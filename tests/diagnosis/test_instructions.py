@@ -226,7 +226,7 @@ def test_places_of_one_cause_are_told_together():
         for t, *strengths in ((20.0, 0.0, 47.0), (4.0, 0.0, 25.0), (50.0, 9.0, 47.0), (35.0, 9.0, 9.1))
     ]
     ((about, places, now, then),) = order_words.reached(helped)
-    assert about == "a bias" and order_words.in_places(places) == " at 4, 20 or 50 degC"
+    assert about == "a bias" and order_words.spelled_places(places) == " at 4, 20 or 50 degC"
     assert (order_words.chances(now), order_words.chances(then)) == ("0 to 24 %", "90 to 100 %")
 
 

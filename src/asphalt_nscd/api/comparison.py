@@ -121,7 +121,7 @@ class Comparison:
         DataFrame
             One row for each mix and frequency, with 95 % intervals.
         """
-        return self._of_each(lambda mix: master_curve(mix, EN_12697_26[0]))
+        return self._made_of_each(lambda mix: master_curve(mix, EN_12697_26[0]))
 
     @property
     def conditions(self) -> pd.DataFrame:
@@ -132,7 +132,7 @@ class Comparison:
         DataFrame
             One row for each mix and condition, with 95 % intervals; asked_for says for what.
         """
-        return self._of_each(_asked)
+        return self._made_of_each(_asked)
 
     @property
     def differences(self) -> pd.DataFrame:
@@ -157,7 +157,7 @@ class Comparison:
         names = ["temperature_C", "frequency_Hz", "mix", "than", *parts, "told_apart"]
         return pd.DataFrame(rows, columns=names)
 
-    def _of_each(self, make: Callable[[Mixture], pd.DataFrame]) -> pd.DataFrame:
+    def _made_of_each(self, make: Callable[[Mixture], pd.DataFrame]) -> pd.DataFrame:
         """What is made of each mix, its name first; of a diagnosis read from files nothing can be."""
         made = {name: one.outcome.mix for name, one in self.diagnoses.items()}
         parts = [make(one).assign(mix=name) for name, one in made.items() if one is not None]

@@ -145,8 +145,8 @@ def corrected(diagnosis: Diagnosis, whole: Observations, mix: Mixture, record: p
             "recorded_E_MPa": np.abs(whole.modulus) * 1e-6,
             "recorded_phase_deg": np.degrees(np.angle(whole.modulus)),
             "reduced_frequency_Hz": whole.frequency * np.exp(shift),
-            "corrected_for": list(_at_each(whole, used, active)),
-            "not_corrected_for": list(_at_each(whole, used, left)),
+            "corrected_for": list(_causes_by_test(whole, used, active)),
+            "not_corrected_for": list(_causes_by_test(whole, used, left)),
             "status": record["status"],
             # No semicolon, which a reader of the file might take for the mark between columns.
             "reasons": [", ".join(one).replace("; ", ", ") for one in record["reasons"]],
@@ -155,7 +155,9 @@ def corrected(diagnosis: Diagnosis, whole: Observations, mix: Mixture, record: p
     )
 
 
-def _at_each(whole: Observations, used: NDArray[np.bool_], causes: Sequence[Candidate]) -> Iterator[str]:
+def _causes_by_test(
+    whole: Observations, used: NDArray[np.bool_], causes: Sequence[Candidate]
+) -> Iterator[str]:
     """Names of the causes that act on each test."""
     at = [(one.cause.name, used & one.cause.rows(whole, one.place)) for one in causes]
     for row in range(whole.size):

@@ -89,7 +89,7 @@ def statuses(diagnosis: Diagnosis, whole: Observations, odd: Places) -> pd.DataF
             status[row] = max(status[row], taken, key=STATUSES.index)
             why[row] += [one for one in reasons if one not in why[row]]
             by[row] += [decided_by] * (decided_by not in by[row])
-    if np.unique(whole.isotherm[_in_law(status)]).size < diagnosis.observed.isotherms.size:
+    if np.unique(whole.isotherm[_is_in_law(status)]).size < diagnosis.observed.isotherms.size:
         status[status == HELD_BACK] = DOUBTFUL  # the rest makes no law
     return pd.DataFrame(
         {
@@ -103,14 +103,14 @@ def statuses(diagnosis: Diagnosis, whole: Observations, odd: Places) -> pd.DataF
     )
 
 
-def _in_law(status: NDArray) -> Rows:
+def _is_in_law(status: NDArray) -> Rows:
     return np.isin(status, [USED, DOUBTFUL])
 
 
 def kept(table: pd.DataFrame) -> Rows:
     """Which of the tests that the diagnosis used are in law.json and in what is reported."""
     status = table["status"].to_numpy()
-    return _in_law(status[status != LEFT_OUT])
+    return _is_in_law(status[status != LEFT_OUT])
 
 
 def told(table: pd.DataFrame) -> list[dict[str, Any]]:

@@ -98,7 +98,7 @@ def reasons(order: Order, questions: Sequence[Open], context: Context) -> list[s
 
 @cache
 def _template() -> Template:
-    filters = vars(sentences) | {"in_places": in_places, "chances": chances}
+    filters = vars(sentences) | {"spelled_places": spelled_places, "chances": chances}
     return template("diagnosis/words/orders.j2", filters, {"CLEARER": CLEARER, "CLEAR": CLEAR})
 
 
@@ -128,7 +128,7 @@ def purpose(order: Order, questions: Sequence[Open]) -> str:
                 return f"to see an error of {one.other} in the temperature of any isotherm"
             alike = [other.place for other in helped if (other.kind, other.about) == (kind, one.about)]
             other = article(one.other) if kind == "apart" else one.other
-            return words.format(about=one.short or one.about, other=other, places=in_places(alike))
+            return words.format(about=one.short or one.about, other=other, places=spelled_places(alike))
     return ""
 
 
@@ -145,7 +145,7 @@ def reached(helped: Sequence[tuple[Open, float, float]]) -> list[tuple[Any, ...]
     return [(about, *map(list, zip(*found, strict=True))) for about, found in causes.items()]
 
 
-def in_places(places: Sequence[Place]) -> str:
+def spelled_places(places: Sequence[Place]) -> str:
     """` at 4, 20 or 50 degC`, ` of specimen A or B`; nothing for a cause of all tests."""
     temperatures = sorted(place for place in places if isinstance(place, float))
     if temperatures:

@@ -134,12 +134,12 @@ def shift(rung: Content, content: Content) -> list[str]:
     return constants if len(constants) > 1 else []
 
 
-def of_both(variation: Content) -> str:
+def both_scatters(variation: Content) -> str:
     """A scatter of |E*| and of the phase."""
     return f"{variation['E_percent']:.1f} % in |E*|, {variation['phase_deg']:.1f} deg in phase"
 
 
-def off(errors: Sequence[float], in_degrees: bool) -> list[str]:
+def two_errors(errors: Sequence[float], in_degrees: bool) -> list[str]:
     """Errors of |E*| [%] and of the phase, in % or `in_degrees`, to two digits."""
     units = ("%", "deg" if in_degrees else "%")
     return [f"{float(f'{error:.2g}'):g} {unit}" for error, unit in zip(errors, units, strict=True)]

@@ -93,10 +93,10 @@ def make_table(law: ExportedLaw) -> Table:
     # t_r = 1 / (f a_T), so both count against it.
     log_time = -(np.log10(frequency) + log_shift[:, None])
 
-    def off(x: Vector) -> Vector:
+    def misfit(x: Vector) -> Vector:
         return (sigmoid(x, log_time[defined]) - np.log10(modulus[defined])).ravel()
 
-    found = least_squares(off, FIRST, x_scale=(1.0, 1.0, 1.0, 0.3), max_nfev=2000)
+    found = least_squares(misfit, FIRST, x_scale=(1.0, 1.0, 1.0, 0.3), max_nfev=2000)
     low, high = law.reduced_band()
     warmest, coldest = law.band.temperature.max(), law.band.temperature.min()
     outside = [
@@ -106,7 +106,7 @@ def make_table(law: ExportedLaw) -> Table:
         ]
         for row, t in enumerate(celsius)
     ]
-    error = float(100.0 * np.abs(10.0 ** off(found.x) - 1.0).max())
+    error = float(100.0 * np.abs(10.0 ** misfit(found.x) - 1.0).max())
     delta, alpha, beta, gamma = (float(value) for value in found.x)
     return Table(law, modulus, outside, (delta, alpha, beta, gamma), error, log_shift, spread)
 

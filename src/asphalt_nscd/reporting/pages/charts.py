@@ -73,7 +73,7 @@ def charts(
     made = [
         _law(master),
         _specimens(master.tests, means),
-        _against_phase(tests, content["scatter"]["phase_deg"]),
+        _causality(tests, content["scatter"]["phase_deg"]),
         _residuals(used, means, content["scatter"], before),
     ]
     return {chart.name: chart for chart in made}
@@ -157,7 +157,7 @@ def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
             "Black diagram",
             lambda axes: fig_black.black(axes, of_specimens, means, looks, fig_black.AFTER),
         ),
-        ("|E*|", lambda axes: _by_specimen(axes, tests, looks)),
+        ("|E*|", lambda axes: _draw_specimens(axes, tests, looks)),
     ):
         figure, axes = page_figure(WIDTH, HEIGHT)
         draw(axes)
@@ -172,7 +172,7 @@ def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
     )
 
 
-def _by_specimen(axes: Any, tests: pd.DataFrame, looks: dict[str, tuple[Any, str]]) -> None:
+def _draw_specimens(axes: Any, tests: pd.DataFrame, looks: dict[str, tuple[Any, str]]) -> None:
     for name, rows in tests.groupby("specimen"):
         panels.points(axes, rows["reduced_Hz"], rows["E_MPa"] * 1e-3, looks[str(name)], rows)
     style.reduced_axis(axes, "reduced frequency (Hz)")
@@ -180,7 +180,7 @@ def _by_specimen(axes: Any, tests: pd.DataFrame, looks: dict[str, tuple[Any, str
 
 
 @style.journal
-def _against_phase(tests: pd.DataFrame, scatter: float) -> Chart:
+def _causality(tests: pd.DataFrame, scatter: float) -> Chart:
     """By specimen; `scatter` is that of the phase of one test, degrees."""
     error = np.hypot(tests["std_error_deg"], scatter)
     excess = (tests["phase_deg"] - tests["phase_required_deg"]) / error

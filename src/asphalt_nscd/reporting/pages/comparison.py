@@ -67,8 +67,8 @@ def write_page(
         notes=NOTES,
         tables=[
             ("Mixes, the stiffest first", HEAD, [_row(row) for row in table.itertuples()]),
-            (CONDITIONS, *_by_condition(values)),
-            (DIFFERENCES, *_by_condition(off)),
+            (CONDITIONS, *_conditions(values)),
+            (DIFFERENCES, *_conditions(off)),
         ],
         machine=machine.splitlines(),
     )
@@ -76,7 +76,7 @@ def write_page(
         temporary.write_text(content, encoding="utf-8")
 
 
-def _by_condition(table: pd.DataFrame) -> tuple[list[str], list[list[str]]]:
+def _conditions(table: pd.DataFrame) -> tuple[list[str], list[list[str]]]:
     """Head and rows: a column for each condition, with what is asked for there."""
     asked = {}
     if "asked_for" in table:
