@@ -95,7 +95,7 @@ class Rig(HeadDevices):
 
 
 def write_rig(path: str | Path, rig: Rig) -> None:
-    """Write a rig as JSON."""
+    """Write a rig as JSON, by KEYS, whose names end in units; `read_rig` reads it."""
     from asphalt_nscd.files.store import write_json
 
     write_json(path, rig.columns())

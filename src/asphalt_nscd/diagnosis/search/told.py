@@ -34,12 +34,12 @@ class Odd:
 
     @property
     def size(self) -> float:
-        """In the unit of its cause."""
+        """Its size in the unit of its cause."""
         return self.candidate.values[0]
 
     @property
     def unit(self) -> str:
-        """Of its size."""
+        """Unit of its size."""
         return self.candidate.cause.parameters[0].unit
 
     @property

@@ -10,5 +10,5 @@ FORMATS = tuple(module.name for module in iter_modules(__path__))  # importing n
 
 
 def format_of(name: str) -> ModuleType:
-    """The module of a format."""
+    """The module that writes a format of FORMATS."""
     return import_module(f"{__name__}.{name}")
