@@ -14,7 +14,7 @@ from asphalt_nscd.specimen import granular_bed as granular_bed
 from asphalt_nscd.specimen.deposit import REST_SPEED, PouringHistory, balance, settle, vibrate
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
-from asphalt_nscd.specimen.settings import Vibration
+from asphalt_nscd.specimen.settings import Pouring, Vibration
 
 BOX = (0.021, 0.016, 0.07)
 
@@ -292,6 +292,11 @@ def test_a_layer_of_more_than_its_sweeps_can_carry_comes_to_rest():
         speed.append(np.sqrt((layer.velocity[: layer.radius.size, :3] ** 2).sum(axis=1).mean()))
     assert speed[1] < REST_SPEED < speed[0]
     assert -layer.contacts(1e-6)[1].min() < 0.01 * layer.radius.min()
+
+
+def test_who_states_no_step_pours_at_that_of_these_tests():
+    """Its CPU time and its overlaps stand in docs/benchmarks.md."""
+    assert Pouring(BOX, 1).time_step == 4e-4
 
 
 @pytest.mark.parametrize("spheres", [500, 14_160, 200_000])
