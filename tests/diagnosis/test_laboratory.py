@@ -168,6 +168,22 @@ def test_a_mean_variance_is_that_of_the_posterior():
     assert told == pytest.approx(expected, rel=0.1)
 
 
+def test_a_size_without_one_is_the_root_of_its_least_variance():
+    """Of specimens, any one of which may be at fault; it is known then, and has no spread."""
+    joint, fit = fitted(table(3))
+    state = begun(joint, fit)
+    found = state.model.processes
+    k = [one.kind for one in found.described].index("specimen times")
+    known = laboratory.without_one(found, state.linear, state.variances)
+    model, least = likelihood.reduce(found, state.linear), np.inf
+    columns = found.factor[:, found.block == k]
+    every = likelihood.directions(model, state.linear, columns)
+    for at in range(columns.shape[1]):
+        free = every.column(at)
+        least = min(least, likelihood.estimate(model, free, state.variances).variances[k])
+    assert known.usual[k] ** 2 == pytest.approx(least, rel=1e-9) and known.spread[k] == 0.0
+
+
 def test_isotherms_within_the_tolerance_of_the_standard_are_no_fault():
     """Each seems far off by the scatter of the tests alone."""
     found = diagnose(warmed(np.array([0.3, -0.4, 0.2, -0.3, 0.4, -0.2])), draws=500)
