@@ -58,16 +58,18 @@ def test_each_isotherm_may_have_one():
     assert out(wrong) == sorted(cold + warm)
 
 
-def test_exchanged_phases_lie_on_no_side():
+@pytest.mark.parametrize(("side", "sign"), [("higher", 1.0), ("lower", -1.0)])
+def test_phases_lie_on_the_side_of_their_mean_and_exchanged_ones_on_none(side, sign):
     observed = campaign().subset(np.arange(6))
     wrong = with_exchange(observed, [0, 5], "phase")
     loo = within_isotherm.leave_one_out(wrong)
     loo.exchanged = (exchanged.Exchange((0, 5), (1,), 9.0),)
     loo.required[:] = observed.logarithm.imag
     loo.required_error[:] = 1e-9
-    loo.required[1:5] += np.array([1.0, 1.0, -1.0, -1.0]) * np.radians(0.01)
+    loo.required[1:5] -= sign * np.radians([-3.0, -3.0, 10.0, 10.0])
     said = suspects.one_sided(wrong, loo)
-    assert said.startswith("2 of 4 phases are higher than |E*| requires")
+    assert said.startswith(f"2 of 4 phases are {side} than |E*| requires")
+    assert said.endswith(f"On average all phases are 3.5 deg {side} than that.")
 
 
 @pytest.mark.parametrize("scatter", [(0.003, 0.1), (0.01, 0.3)])

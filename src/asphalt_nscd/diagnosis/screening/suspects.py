@@ -220,18 +220,20 @@ def _required(observed: Observations, loo: LooPrediction) -> tuple[NDArray, NDAr
 
 
 def one_sided(observed: Observations, loo: LooPrediction) -> str:
-    """A sentence where at least half of the phases lie, beyond error, on one side of what |E*| requires; else empty."""
+    """A sentence where half of the phases or more depart from what |E*| requires as their mean does; else empty."""
     rows = loo.judged & loo.unexchanged
     apart = np.degrees(observed.logarithm.imag - loo.required)[rows]
     far = np.abs(apart) > 2.0 * np.degrees(loo.required_error[rows])
-    for side, there in (("higher", far & (apart > 0.0)), ("lower", far & (apart < 0.0))):
-        if 2 * np.count_nonzero(there) >= max(apart.size, 1):
-            return (
-                f"{np.count_nonzero(there)} of {apart.size} phases are {side} than |E*| requires (about 90 deg times "
-                "the slope of log |E*| against log f), by more than two standard errors. On average all phases are "
-                f"{abs(apart.mean()):.1f} deg {side} than that."
-            )
-    return ""
+    mean = apart.mean() if apart.size else 0.0
+    there = np.count_nonzero(far & (apart * mean > 0.0))
+    if not there or 2 * there < apart.size:
+        return ""
+    side = "higher" if mean > 0.0 else "lower"
+    return (
+        f"{there} of {apart.size} phases are {side} than |E*| requires (about 90 deg times the slope of log |E*| "
+        "against log f), by more than two standard errors. On average all phases are "
+        f"{abs(mean):.1f} deg {side} than that."
+    )
 
 
 def table(observed: Observations, record: pd.DataFrame, loo: LooPrediction) -> pd.DataFrame:
