@@ -100,3 +100,13 @@ def test_derivatives_of_the_modulus_are_its_differences():
         step = 1e-5 * (np.arange(x.size) == k)
         up, down = (base.modulus(x + sign * step, omega, temperature)[0] for sign in (1.0, -1.0))
         np.testing.assert_allclose(along, (up - down) / 2e-5, rtol=1e-6, atol=1e-6 * np.abs(modulus).max())
+
+
+def test_a_bend_acts_below_its_temperature_as_a_square():
+    base = FlexibleSpectrum(TIMES, 15.0, 35.0, 25.0, 0.2)
+    x, temperature = np.zeros(base.parameters), base.GLASS[1] + np.array([-20.0, -10.0, 0.0, 30.0])
+    x[-3:-1] = np.log(0.12), base.log_odds(0.008)
+    straight = base.log_shift(x, temperature)[0]
+    x[base.times.size + 2] = 1.0
+    bend = base.log_shift(x, temperature)[0] - straight
+    assert bend == pytest.approx(-0.5 * base.BEND * np.array([400.0, 100.0, 0.0, 0.0]))

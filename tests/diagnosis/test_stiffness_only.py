@@ -67,3 +67,12 @@ def test_one_temperature_is_refused(table, tmp_path):
     whole[whole.iloc[:, 1] == 40.0].to_csv(tmp_path / "one.csv", index=False)
     with pytest.raises(InputError, match="one temperature has no master curve"):
         fit_stiffness(read_campaign([tmp_path / "one.csv"])[0])
+
+
+def test_the_farthest_test_may_lie_below_the_curve(table, tmp_path):
+    whole = pd.read_csv(table)
+    whole.iloc[40, 3] *= 0.7
+    whole.to_csv(tmp_path / "low.csv", index=False)
+    said = dict(fit_stiffness(read_campaign([tmp_path / "low.csv"])[0]).rows)["Farthest"]
+    specimen, frequency = whole.iloc[40, 0], whole.iloc[40, 2]
+    assert said.startswith("-") and f"specimen {specimen}" in said and f"{frequency:g} Hz" in said

@@ -10,7 +10,9 @@ from naive.prony import ROOT, assert_within
 from asphalt_nscd.exports.export import export_law
 from asphalt_nscd.exports.law import read_law_file
 from asphalt_nscd.exports.settings import ExportSettings
-from asphalt_nscd.rheology.laws_io import write_law
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.rheology.chain import KelvinChain
+from asphalt_nscd.rheology.laws_io import write_chain, write_law
 from asphalt_nscd.rheology.maxwell_fitting import Miss
 from asphalt_nscd.rheology.published_laws import read_published
 
@@ -35,3 +37,12 @@ def test_a_burgers_law_as_csv_flows(tmp_path):
     write_law(tmp_path / "law.json", laws[0], source="published", temperature=temperatures[0])
     export_law(read_law_file(tmp_path / "law.json"), ExportSettings(), "csv", tmp_path / "law.csv")
     assert pd.read_csv(tmp_path / "law.csv", comment="#")["modulus_Pa"][0] == 0.0
+
+
+def test_a_kelvin_chain_is_not_asked_beyond_its_band(tmp_path):
+    chain = KelvinChain(30e9, np.inf, (50e9,), (2e9,))
+    band = {"lowest_hz": 3.0, "highest_hz": 40.0}
+    write_chain(tmp_path / "law.json", chain, source="spectrum.json", temperature=15, error=4e-4, **band)
+    read_law_file(tmp_path / "law.json", None, (3.0, 40.0))
+    with pytest.raises(InputError, match="says nothing at 400 Hz"):
+        read_law_file(tmp_path / "law.json", None, (3.0, 400.0))

@@ -74,9 +74,11 @@ def test_suspect_tests_and_notes_of_a_diagnosis_stand_in_the_workbook(folder, mo
 
 def test_numbers_are_shown_short_and_a_sheet_prints_on_a_page(tmp_path):
     write_sheets(
-        tmp_path / "t.xlsx", {"Curves": pd.DataFrame({"frequency_Hz": [1e5], "E_MPa": [1234.56789]})}
+        tmp_path / "t.xlsx",
+        {"Curves": pd.DataFrame({"frequency_Hz": [1e5, np.inf], "E_MPa": [1234.56789, np.nan]})},
     )
     sheet = openpyxl.load_workbook(tmp_path / "t.xlsx")["Curves"]
     assert sheet["B2"].value == 1234.56789 and sheet["B2"].number_format == "0.0"
+    assert sheet["A3"].value is sheet["B3"].value is None  # no spreadsheet has a number for these
     assert all(sheet.column_dimensions[letter].width >= 11 for letter in "AB")  # no ### for 8.5604E+07
     assert (sheet.sheet_properties.pageSetUpPr.fitToPage, sheet.page_setup.fitToWidth) == (True, 1)

@@ -117,3 +117,11 @@ def test_readings_about_one_temperature_are_one_that_was_set():
     assert _setpoints(np.array([9.97, 10.0, 10.04, 10.3])) == 1
     assert _setpoints(np.array([9.9, 10.1, 19.8, 20.2, 40.0])) == 3
     assert _setpoints(np.arange(10.0, 21.0)) == 6
+
+
+def test_a_colder_binder_is_asked_at_a_higher_reduced_frequency():
+    shift = ViscosityShift(*GRADES[64][-22], reference_temperature=20.0)
+    cold, same, warm = shift.factor(np.array([0.0, 20.0, 40.0]))
+    assert same == pytest.approx(1.0) and cold > 10.0 and warm < 0.1
+    at = shift.crossover(np.array([20.0, 0.0]))
+    assert cold * at[1] == pytest.approx(at[0])  # it crosses over there as at the reference

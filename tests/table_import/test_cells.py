@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import zipfile
 
 import openpyxl
@@ -23,10 +24,14 @@ def read(folder, content):
     return read_cells(folder / "t.csv")
 
 
-@pytest.mark.parametrize("codec", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+@pytest.mark.parametrize("codec", ["utf-8", "utf-8-sig", "utf-16", "big-endian", "cp1252"])
 @pytest.mark.parametrize("separator", [";", "\t"])
 def test_separators_and_encodings_of_spreadsheets(tmp_path, codec, separator):
-    table = read(tmp_path, text(separator).encode(codec))
+    content = text(separator)
+    marked = (
+        codecs.BOM_UTF16_BE + content.encode("utf-16-be") if codec == "big-endian" else content.encode(codec)
+    )
+    table = read(tmp_path, marked)
     assert [table.header, *(row for _, row in table.rows)] == TABLE
 
 

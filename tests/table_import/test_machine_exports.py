@@ -243,6 +243,7 @@ def test_a_target_that_cannot_be_read_is_none(tmp_path):
         ("Mix-11-10C", -10, "Mix-11", False),
         ("Mix_11_4.4 °C", 4.4, "Mix_11", False),
         ("PG64-22C-B2-21C", 21, "PG64-22C-B2", False),
+        ("Mix-4C-B2-21C", None, "Mix-4C-B2", False),
         ("Mix-12", 4, "Mix-12", False),
         ("Mix-4Cores", 4, "Mix-4Cores", False),
         ("4C", 4, "4C", False),

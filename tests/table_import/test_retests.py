@@ -138,3 +138,17 @@ def test_specimens_under_the_name_of_mixes_can_be_said(tmp_path):
     table = [["Mix", *HEADER[1:]], *ROWS]
     refused(read, tmp_path, table, names=["t.csv", '--column specimen="Mix"'])
     assert plain(read(tmp_path, table, specimen="Mix").table) == as_is(tmp_path)
+
+
+@pytest.mark.parametrize(("column", "values"), [("order", (1, 2)), ("amplitude_m", (5e-5, 2e-5))])
+def test_tests_that_differ_in_order_or_amplitude_alone_are_no_retests(tmp_path, column, values):
+    parts = [
+        [[*row[:3], row[3] * (1.0 + 0.01 * k), row[4], value] for row in ROWS]
+        for k, value in enumerate(values)
+    ]
+    campaign = read(tmp_path, [[*HEADER, column], *parts[0], *parts[1]])
+    assert len(campaign.table.columns["E_MPa"]) == 2 * len(ROWS)
+    for k, rows in enumerate(parts):
+        read(tmp_path, [[*HEADER, column], *rows], f"{k}.csv")
+    together, _ = read_campaign([tmp_path / "0.csv", tmp_path / "1.csv"])
+    assert len(together.table.columns["E_MPa"]) == 2 * len(ROWS)

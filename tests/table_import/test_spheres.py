@@ -11,6 +11,7 @@ import pytest
 import yaml
 from table_import.slips import refused
 
+from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.specimen.counts import read_counts
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.table_import.spheres import PAPER, PAPER_COUNTS, read_grading, spheres_for
@@ -45,6 +46,14 @@ def test_volume_of_spheres_goes_with_that_of_the_specimen(grading):
     prism = replace(PAPER, b=0.07, B=0.07, e=0.05, h=0.3)
     ratio = (0.07 * 0.05 * 0.3) / (0.056 * 0.025 * 0.25)
     assert volume(spheres_for(prism, grading).counts) == pytest.approx(ratio * volume(PAPER_COUNTS), rel=2e-3)
+
+
+def test_spheres_of_a_cylinder_are_twice_as_large_and_fill_as_much_of_its_box():
+    cylinder = Cylinder(d=0.1, h=0.15, mass=2.8, mobile_mass=0.5)
+    counts = spheres_for(cylinder).counts
+    assert counts.index.tolist() == (2.0 * PAPER_COUNTS.index).tolist()
+    ratio = (0.1 * 0.1 * 0.15) / (0.056 * 0.025 * 0.25)
+    assert volume(counts) == pytest.approx(ratio * volume(PAPER_COUNTS), rel=2e-3)
 
 
 def test_masses_follow_the_sieve_curve():

@@ -66,6 +66,16 @@ def test_a_prony_series_is_a_sum_of_maxwell_branches():
     np.testing.assert_allclose(prony.modulus(x, omega, temperature), expected, rtol=1e-9)
 
 
+def test_the_shift_of_a_prony_series_is_regular_at_its_coldest_test():
+    omega, temperature = np.array([1.0, 1.0, 1.0]), np.array([-10.0, 15.0, 40.0])
+    *_, prony = laws_of(omega, temperature, np.full(3, 1e9, complex), 15.0)
+    x = np.array([np.log(0.1), 0.0, -30.0, -30.0, -30.0, 0.0, 3.0, np.log(0.1), 0.6])
+    c2 = 30.0 / 0.6  # the coldest test is 25 K below the reference, and 5 K are kept clear
+    shift = 10.0 ** (-0.1 * c2 * (temperature - 15.0) / (c2 + temperature - 15.0))
+    expected = 1e9 * (0.1 + 1j * shift / (1.0 + 1j * shift))
+    np.testing.assert_allclose(prony.modulus(x, omega, temperature), expected, rtol=1e-9)
+
+
 def test_what_was_left_out_does_not_come_back_through_the_start():
     """A temperature left out of three leaves the shift undetermined: the fit must not keep it from its start."""
     temperature, frequency = (a.ravel() for a in np.meshgrid([0.0, 15.0, 30.0], [1.0, 5.0, 20.0]))
