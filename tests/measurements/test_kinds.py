@@ -25,7 +25,7 @@ def properties(schema: str, *keys: str) -> dict:
 
 
 def test_what_can_be_diagnosed():
-    assert set(WORDS["scheme"]) == set(TEST_TYPES)
+    assert set(WORDS["scheme"]) == {*TEST_TYPES, UNKNOWN}
     for section in ("diagnosis", "tables_beside"):
         assert properties(STUDY, section, "measured_in")["enum"] == list(TEST_TYPES)
     assert get_args(get_type_hints(Reading)["test_type"]) == (*TEST_TYPES, UNKNOWN)
