@@ -136,6 +136,9 @@ FILES = {
     "units below, the mix above": (
         [["Mischgut:", "AC 22 T S 30/45"], ["Probekörper", "Prüftemperatur", "Frequenz", "Steifigkeitsmodul |E*|",
                                             "Phasenwinkel"], ["", "°C", "Hz", "MPa", "°"], *long([])[1:]], TESTS),
+    "units below, one unknown": (
+        [["Beam", "Temp", "Freq", "Stiffness", "Phase", "Dissipated energy"], ["", "°C", "Hz", "MPa", "deg", "J/m3"],
+         *([*row, 12.5] for row in long([])[1:])], TESTS),
     "means at the end, named once": (
         [["Core", *KEYS, "E* (MPa)", "phi (°)"],
          *([s if (t, f) == (4.0, 10.0) else None, t if f == 10.0 else None, f, e, p]

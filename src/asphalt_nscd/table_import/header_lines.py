@@ -301,7 +301,7 @@ def _attach_unit_line(cells: Cells) -> Cells:
     told = [place for place, unit in enumerate(units) if unit not in _NO_UNIT and is_unit(unit)]
     other = [unit for unit in units if unit not in _NO_UNIT and not is_unit(unit)]
     # C, F, K and N are names of specimens too: beside other words it takes three units to make a line of units.
-    if not told or (other and len(told) < 3) or any(re.search(r"\d", unit) for unit in other):
+    if not told or (other and len(told) < 3) or any(re.match(r"[^A-Za-z]*\d", unit) for unit in other):
         return cells
     header = list(cells.header)
     for place in told:

@@ -86,7 +86,9 @@ def test_page_of_a_diagnosis_can_be_used(found, results, tmp_path, width):
     made = results.diagnosis() | {"causality": results.causality()}
     for name in ("residuals.csv", "diagnosis.json"):
         assert (tmp_path / name).exists()
-    (tmp_path / "page.html").write_text(render(sections(**made), "A diagnosis", {"residuals.csv": "each test"}))
+    (tmp_path / "page.html").write_text(
+        render(sections(**made), "A diagnosis", {"residuals.csv": "each test"})
+    )
     assert found(tmp_path / "page.html", width) == []
     assert found(tmp_path / "page.html", width, use) == []
 
