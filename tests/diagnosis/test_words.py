@@ -6,6 +6,7 @@ from contents import LAW_MISSES, SOUND, SURE, named, of_suspects
 
 from asphalt_nscd.diagnosis.words import facts, sentences
 from asphalt_nscd.diagnosis.words.answer import MOST, WIDTH, Words, answer, summary
+from asphalt_nscd.diagnosis.words.tables import tables
 from asphalt_nscd.diagnosis.written import interval_95
 
 
@@ -369,3 +370,15 @@ def test_what_stays_unexplained_is_told_by_its_place():
     assert reason("miss", odd_phases=odd)[0].endswith(
         "fits these tests to within their scatter, but that scatter includes specimen B, which is odd."
     )
+
+
+def test_an_excess_stands_before_its_error():
+    excess = {
+        "temperature_C": 20.0,
+        "excess_deg": 2.0,
+        "standard_error_deg": 0.3,
+        "deformation_drift_percent": -36.0,
+    }
+    (table,) = [one for one in tables(content(excess_phase=[excess])) if one.rows]
+    assert [head.partition(",")[0] for head in table.head[:3]] == ["isotherm", "excess", "standard error"]
+    assert table.rows == [["20 degC", "2.00", "0.30", "-36"]]
