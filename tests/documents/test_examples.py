@@ -33,5 +33,7 @@ def test_examples(name, monkeypatch):
 
 def test_the_example_of_the_package(monkeypatch):
     monkeypatch.chdir(ROOT)
+    for name in asphalt_nscd.__all__:  # doctest walks over the names of a module, which loads them when asked
+        getattr(asphalt_nscd, name)
     failed, tried = doctest.testmod(asphalt_nscd)
     assert tried and not failed
