@@ -152,3 +152,11 @@ def test_tests_that_differ_in_order_or_amplitude_alone_are_no_retests(tmp_path, 
         read(tmp_path, [[*HEADER, column], *rows], f"{k}.csv")
     together, _ = read_campaign([tmp_path / "0.csv", tmp_path / "1.csv"])
     assert len(together.table.columns["E_MPa"]) == 2 * len(ROWS)
+
+
+def test_tests_in_another_order_are_of_one_specimen_that_nobody_named(tmp_path):
+    parts = [
+        [[*row[1:3], row[3] + order, row[4], order] for row in ROWS if row[0] == "A"] for order in (1, 2)
+    ]
+    table = read(tmp_path, [[*HEADER[1:], "order"], *parts[0], *parts[1]]).table
+    assert set(table.columns["specimen"]) == {"1"} and len(table.columns["E_MPa"]) == len(ROWS)
