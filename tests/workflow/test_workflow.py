@@ -181,6 +181,15 @@ def test_bonds_are_made_ready_to_break_only_where_the_campaign_tests(plan_of):
     assert all(f" results/paper/benchmarks/forecast_{part}.tsv" in line for part in forecast)
 
 
+def test_the_log_of_each_step_lies_where_its_cpu_time_is_looked_for(plan_of):
+    plan = plan_of("paper")
+    logs = {*re.findall(r"> results/paper/logs/(\S+).log 2>&1", "\n".join(plan.lines))}
+    (line,) = plan.commands("timings")
+    timed = {*re.findall(r" results/paper/benchmarks/(\S+).tsv", line)}
+    long = ("deposit", "condense", "simulate", "trim", "diagnose")
+    assert len(timed) > 350 and not {name for name in timed - logs if name.startswith(long)}
+
+
 def test_rungs_above_the_paper_s_are_simulated_with_facets_and_nothing_is_divided_out(plan_of):
     plan = plan_of("smoke")
     found = [

@@ -133,7 +133,7 @@ use rule deposit as deposit_loose with:
     output:
         "<results>/deposits/s{seed}-friction{friction}.h5",
     log:
-        "<results>/logs/deposit/s{seed}-friction{friction}.log",
+        "<results>/logs/deposit_loose/s{seed}-friction{friction}.log",
     benchmark:
         "<results>/benchmarks/deposit_loose/s{seed}-friction{friction}.tsv"
     params:
