@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 from naive.granular import all_pairs
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.specimen.lattice import random_lattice
 
 MIXES = {
@@ -51,13 +50,3 @@ def test_sizes_and_places_are_mixed():
     for size in np.unique(radius):
         own = height[radius == size]
         assert abs(own.mean() - 0.5) < 3 * np.sqrt(1 / 12 / own.size)
-
-
-def test_too_many_spheres_are_refused():
-    """One more than fits: 24 cells, 4 large spheres, 160 small ones in the octants of the 20 others."""
-    with pytest.raises(InputError, match="its 24 lattice cells cannot hold 165 spheres; enlarge the box"):
-        random_lattice(
-            np.array([2e-3, 4e-3]), np.array([161, 4]), MIXES["crowded"][2], np.random.default_rng(1)
-        )
-    with pytest.raises(InputError, match="cannot hold 25 spheres"):
-        random_lattice(np.array([4e-3]), np.array([25]), MIXES["crowded"][2], np.random.default_rng(1))

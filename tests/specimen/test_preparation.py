@@ -120,14 +120,6 @@ def test_statistics_of_a_made_up_layer():
     assert found["segregation"] == pytest.approx(2 / height)
 
 
-def test_a_box_in_millimetres_is_refused_before_anything_is_poured():
-    spheres = np.array([5e-3]), np.array([20])
-    with pytest.raises(
-        InputError, match=r"a box of 100 x 20 x 120 m is longer than 10 m; give its sides in m, not in"
-    ):
-        preparation.pour(spheres, Pouring((100.0, 20.0, 120.0), 0))
-
-
 def test_two_threads_pour_the_same_layer(monkeypatch):
     monkeypatch.setattr(settings, "cores", lambda: 2)
     spheres, shaken = (np.array([2e-3, 4e-3]), np.array([120, 20])), Vibration(1e-3, 30.0, 0.02)
@@ -233,11 +225,3 @@ def test_arrays_that_are_no_spheres_are_refused_wherever_they_enter(wrong, said)
             bonded((arrays, {}), read_shape(GEOMETRY | {"h_mm": 50}), Cutting())
     with pytest.raises(InputError, match="no array 'radius'"):
         an.Packing({"position": GRID, "box": BOX_OF_GRID}, {})
-
-
-def test_a_vibration_that_the_steps_do_not_follow_is_refused():
-    with pytest.raises(
-        InputError, match=r"2.5 steps of 0.0004 s in a period of 1000 Hz .* step of 0.0001 s or less"
-    ):
-        Pouring(BOX, vibration=Vibration(frequency=1000.0))
-    assert Pouring(BOX, vibration=Vibration(frequency=1000.0, duration=0.0))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen.trimming import layer_height, trim
 
@@ -106,21 +105,3 @@ def test_a_wider_box_is_cut_to_the_thickness(layer):
         np.concatenate([position, outside]), np.append(radius, radius[:60]), GEOMETRY, REDUCTION, REACH
     )
     assert np.abs(specimen.position[:, 1]).max() <= GEOMETRY.e / 2
-
-
-def test_a_layer_too_low_is_refused(layer):
-    position, radius = layer
-    low = position[:, 2] < 15e-3
-    with pytest.raises(
-        InputError, match=r"layer is 1\d\.\d mm high, less than the foot of the specimen \(20.0 mm\)"
-    ):
-        trim(position[low], radius[low], GEOMETRY, REDUCTION, REACH)
-
-
-def test_overlapping_bodies_are_refused(layer):
-    """Radii not reduced far enough, or a box longer than the specimen: gaps must be positive."""
-    position, radius = layer
-    with pytest.raises(InputError, match=r"overlap by 0\.\d+ mm; raise the reduction of volume"):
-        trim(position, radius * 1.1, GEOMETRY, 0.0, REACH)
-    with pytest.raises(InputError, match=r"make the box as long as the specimen is high \(60.0 mm\)"):
-        trim(position * [1.02, 1, 1], radius, GEOMETRY, REDUCTION, REACH)
