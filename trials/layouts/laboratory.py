@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import product
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,36 +14,16 @@ import numpy as np
 Rows = list[list[Any]]
 Sheets = dict[str, Rows]
 UNITS = {"MPa": (1.0, 0), "GPa": (1e-3, 3), "ksi": (1 / 6.894757293, 1), "N/mm²": (1.0, 0)}
-# Modulus, phase, frequency, temperature, specimen; a mean, a deviation and a CV; a mix.
-LANGUAGES = {
-    "en": (
-        ("Dynamic modulus", "|E*|", "E*", "Complex modulus", "Stiffness"), ("Phase angle", "phi", "δ", "Phase lag"),
-        ("Frequency", "Freq.", "f"), ("Temperature", "Temp.", "T", "Test temperature"), ("Specimen", "Sample", "Core"),
-        ("Mean", "Average", "Ave", "Avg."), ("Std. dev.", "SD", "St.Dev"), ("CV", "COV"), "Mix"),
-    "fr": (
-        ("Module complexe", "Module |E*|", "Norme du module", "Rigidité"), ("Angle de phase", "Déphasage", "φ"),
-        ("Fréquence", "Fréq.", "f"), ("Température", "Temp.", "T", "Température d'essai"),
-        ("Éprouvette", "Échantillon"), ("Moyenne", "Moy.", "Moy"), ("Écart-type", "Ecart type", "σ"),
-        ("CV", "Coeff. var."), "Enrobé"),
-    "de": (
-        ("Steifigkeit", "Steifigkeitsmodul", "Komplexer Modul", "E-Modul"),
-        ("Phasenwinkel", "Phasenverschiebung", "φ"), ("Frequenz", "Prüffrequenz", "f"),
-        ("Temperatur", "Prüftemperatur", "T"), ("Prüfkörper", "Probekörper", "Probe"),
-        ("Mittelwert", "MW", "Mittel", "x quer"), ("Stabw.", "s", "Standardabweichung"),
-        ("VK", "Variationskoeffizient"), "Mischgut"),
-    "es": (
-        ("Módulo dinámico", "Módulo complejo", "Rigidez", "|E*|"), ("Ángulo de fase", "Desfase", "φ"),
-        ("Frecuencia", "Frec.", "f"), ("Temperatura", "Temp.", "T"), ("Probeta", "Muestra"),
-        ("Promedio", "Media", "Prom."), ("Desv. est.", "Desviación"), ("CV", "Coef. var."), "Mezcla"),
-    "it": (
-        ("Modulo complesso", "Modulo dinamico", "Rigidezza", "E*"), ("Angolo di fase", "Sfasamento", "δ"),
-        ("Frequenza", "Freq.", "f"), ("Temperatura", "T"), ("Provino", "Campione"),
-        ("Media", "Valore medio"), ("Dev. st.", "Scarto"), ("CV", "Coeff. var."), "Miscela"),
-    "pl": (
-        ("Moduł sztywności", "Moduł zespolony", "|E*|"), ("Kąt przesunięcia fazowego", "Kąt fazowy", "φ"),
-        ("Częstotliwość", "f"), ("Temperatura", "T", "Temp."), ("Próbka", "Nr próbki"),
-        ("Średnia", "Wartość średnia", "Śr."), ("Odch. std.", "Odchylenie"), ("Wsp. zm.", "CV"), "Mieszanka"),
-}  # fmt: skip
+
+
+def words_of(known: str) -> dict[str, list[list[str]]]:
+    """By language: words that the "reader" knows, "foreign" ones, and "later" ones, written after it was fixed."""
+    with (Path(__file__).parent / "words.csv").open(encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row.pop("known") == known]
+    return {row.pop("language"): [*(words.split(";") for words in row.values())] for row in rows}
+
+
+LANGUAGES = words_of("reader")
 SCHEMES = (
     ([4.0, 20.0, 40.0], [25.0, 10.0, 5.0, 1.0, 0.5, 0.1]),
     ([-10.0, 4.0, 21.0, 37.0, 54.0], [25.0, 10.0, 5.0, 1.0, 0.5, 0.1]),
@@ -65,12 +47,12 @@ class Tests:
 class Laboratory:
     """How one laboratory writes: its words, units and marks, and the tests that it has."""
 
-    def __init__(self, seed: int, languages: Mapping[str, tuple[Any, ...]] = LANGUAGES) -> None:
+    def __init__(self, seed: int, languages: Mapping[str, list[list[str]]] = LANGUAGES) -> None:
         """Draw words, units and tests."""
         self.random = np.random.default_rng(seed)
         pick = self.pick
         self.language = pick(list(languages))
-        *words, mix = languages[self.language]
+        *words, (mix,) = languages[self.language]
         modulus, phase, frequency, temperature, self.specimen, *self.statistics = map(pick, words)
         self.mix = mix
         self.unit = pick(["MPa", "MPa", "MPa", "GPa", "N/mm²", "ksi" if self.language == "en" else "GPa"])

@@ -4,64 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
 
 from layouts.families import FAMILIES, LATER_FAMILIES, Family, long, two_mixes
 from layouts.files import save, sheets_of
-from layouts.laboratory import LANGUAGES, Laboratory, Rows, Sheets, Tests
+from layouts.laboratory import LANGUAGES, Laboratory, Rows, Sheets, Tests, words_of
 from layouts.mends import User, changed
 from layouts.score import outcome
 
-FOREIGN = {
-    "fi": (
-        ("Kompleksimoduuli", "Jäykkyysmoduuli"), ("Vaihekulma",), ("Taajuus",), ("Lämpötila",), ("Koekappale", "Näyte"),
-        ("Keskiarvo", "Ka."), ("Keskihajonta",), ("Variaatiokerroin",), "Massa"),
-    "cs": (
-        ("Tuhost", "Absolutní hodnota"), ("Zpoždění",), ("Kmitočet",), ("Tep.",), ("Zkušební těleso", "Trámeček"),
-        ("Průměr",), ("Směr. odch.",), ("Var. koef.",), "Druh směsi"),
-    "tr": (
-        ("Rijitlik modülü", "Kompleks modül"), ("Faz açısı",), ("Frekans",), ("Sıcaklık",), ("Numune",),
-        ("Ortalama",), ("Std. sapma",), ("Değişim kats.",), "Karışım"),
-    "el": (
-        ("Μέτρο δυσκαμψίας", "Μιγαδικό μέτρο"), ("Γωνία φάσης",), ("Συχνότητα",), ("Θερμοκρασία",), ("Δοκίμιο",),
-        ("Μέση τιμή", "Μ.Ο."), ("Τυπική απόκλιση",), ("Συντ. μεταβλητότητας",), "Μίγμα"),
-    "pt": (
-        ("Rigidez à flexão", "Módulo em módulo"), ("Defasagem",), ("Freq. de ensaio",), ("Temp. do ensaio",),
-        ("CP", "Corpo"), ("Média",), ("Desvio",), ("CV",), "Traço"),
-    "da": (
-        ("Kompleks stivhed", "E-stivhed"), ("Faseforskydning",), ("Svingningstal",), ("Prøvetemperatur",), ("Emne",),
-        ("Gennemsnit", "Gns."), ("Spredning",), ("Var.koef.",), "Recept"),
-    "ro": (
-        ("Modul de rigiditate", "Rigiditate"), ("Unghi de fază",), ("Frecvență",), ("Temperatură",), ("Epruvetă",),
-        ("Medie",), ("Abatere",), ("Coef. var.",), "Amestec"),
-    "hr": (
-        ("Modul krutosti", "Krutost"), ("Fazni kut",), ("Učestalost",), ("Temp. ispitivanja",), ("Uzorak",),
-        ("Srednja vrijednost", "Prosjek"), ("Stand. dev.",), ("Koef. var.",), "Mješavina"),
-}  # fmt: skip
-# Written after the reader was fixed; the words above were in sight.
-LATER = {
-    "lt": (
-        ("Standumo modulis", "Kompleksinis modulis"), ("Fazės kampas",), ("Dažnis",), ("Bandymo temp.",), ("Bandinys",),
-        ("Vidurkis", "Vid."), ("Stand. nuokrypis",), ("Variacijos koef.",), "Mišinys"),
-    "et": (
-        ("Jäikusmoodul", "Kompleksmoodul"), ("Faasinurk",), ("Sagedus",), ("Katsetemp.", "Temperatuur"),
-        ("Proovikeha",), ("Keskmine",), ("Standardhälve",), ("Var.kordaja",), "Segu"),
-    "ru": (
-        ("Модуль упругости", "Динамический модуль"), ("Фазовый угол", "Сдвиг фаз"), ("Частота",), ("Температура", "Т"),
-        ("Образец", "№ обр."), ("Среднее", "Ср."), ("Ст. откл.",), ("К. вар.",), "Смесь"),
-    "ja": (
-        ("複素弾性率", "動的弾性率"), ("位相角",), ("周波数",), ("温度", "試験温度"), ("供試体", "試料"),
-        ("平均", "平均値"), ("標準偏差",), ("変動係数",), "混合物"),
-    "sl": (
-        ("Togost", "Modul togosti"), ("Fazni zamik",), ("Frekvenca",), ("Temp. preskusa",), ("Vzorec", "Preskušanec"),
-        ("Povprečje", "Povp."), ("St. odklon",), ("KV",), "Zmes"),
-    "is": (
-        ("Stífnistuðull", "Tvinnstuðull"), ("Fasahorn",), ("Tíðni",), ("Hitastig", "Hiti"), ("Sýni",),
-        ("Meðaltal",), ("Staðalfrávik",), ("Breytistuðull",), "Blanda"),
-}  # fmt: skip
+FOREIGN, LATER = words_of("foreign"), words_of("later")
 MOST_STEPS = 4  # refusals of one file that are obeyed, one after the other
 
 
@@ -89,7 +43,7 @@ def refusals(number: int, first: int, folder: Path) -> pd.DataFrame:
 def obeyed(
     seed: int,
     folder: Path,
-    languages: Mapping[str, tuple[Any, ...]] = FOREIGN,
+    languages: Mapping[str, list[list[str]]] = FOREIGN,
     families: Sequence[Family] = FAMILIES,
 ) -> Refused | None:
     """What came of a file as its refusals were obeyed; None if it was read at once."""
@@ -108,11 +62,6 @@ def obeyed(
     if result != "read":
         said.append(why.replace(f"{folder}/", ""))
     return Refused(kind, family, lab.language, result, len(said), " | ".join(said)) if said else None
-
-
-SLIPS = ("modulus without unit", "temperature without unit", "word in place of a number", "thousands", "two mixes",
-    "specimens without name", "names swapped", "other unit than said", "turned", "logarithms", "one temperature unsaid",
-    "modulus twice")  # fmt: skip
 
 
 def slip(kind: str, lab: Laboratory, seed: int) -> tuple[str, Sheets]:

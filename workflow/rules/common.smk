@@ -1,4 +1,5 @@
 # Where this workflow stands, and the environment of its jobs.
+import functools
 import gc
 import json
 import os

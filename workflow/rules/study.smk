@@ -119,6 +119,7 @@ wildcard_constraints:
     tolerance=r"[\d.]+(e[+-]?\d+)?",
 
 
+@functools.cache  # rules ask three times for each stamp
 def code(step, *modules, without=()):
     """What stands for the source behind a step and modules that it picks by name; `without` folders that are no matter."""
     wanted = (f"cli.{step.replace('-', '_')}", *modules)

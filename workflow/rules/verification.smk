@@ -39,7 +39,7 @@ rule mutants:
 rule layouts:
     """Two hundred files as laboratories lay them out: each read as it was meant, or refused; never read wrongly."""
     input:
-        trial=[shipped(f"trials/layouts/{path.name}") for path in sorted((CLONE / "trials/layouts").glob("*.py"))],
+        trial=[shipped(f"trials/layouts/{path.name}") for path in sorted((CLONE / "trials/layouts").glob("*.*"))],
         code=local(stamp(".snakemake/code", "layouts", source_files("table_import.campaign", "api.reading")).as_posix()),
     output:
         multiext("results/layouts/", "layouts.csv", "summary.csv", "refusals.csv", "mends.csv", "provenance.json"),

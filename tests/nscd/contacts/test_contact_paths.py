@@ -9,10 +9,10 @@ import pytest
 from naive.friction import nearest_in_cone
 from theory.assemblies import box_stack, spheres_in_a_box
 
-from asphalt_nscd.nscd.contacts import interior
+from asphalt_nscd.nscd.contacts import interior, newton
 from asphalt_nscd.nscd.contacts.newton import linearised, refine
 from asphalt_nscd.nscd.contacts.problem import ContactProblem
-from asphalt_nscd.nscd.contacts.proximal import proximal_points, softened
+from asphalt_nscd.nscd.contacts.proximal import NEAR, proximal_points, softened
 
 
 def random_problem(seed, friction=0.5, contacts=8):
@@ -51,6 +51,19 @@ def test_residual_and_derivative(friction):
     predicted = np.einsum("aij,aj->ai", by_reaction, direction.reshape(-1, 3))
     predicted += np.einsum("aij,aj->ai", by_velocity, du)
     np.testing.assert_allclose(change, predicted.ravel(), atol=1e-6 * np.abs(change).max())
+
+
+def test_a_step_of_newton_solves_the_linearised_equations_with_open_contacts_too():
+    """(D + B (W + proximal / rho)) d = -F, in full."""
+    problem, rng = random_problem(2)
+    residual, by_reaction, by_velocity = linearised(problem, r := rng.normal(size=24))
+    opened = np.abs(by_velocity).sum(axis=(1, 2)) == 0.0
+    assert 0 < opened.sum() < 8
+    direction = newton._newton_direction(problem, residual, by_reaction, by_velocity, 0.1)
+    change = problem.matrix @ direction + 0.1 / np.repeat(problem.length, 3) * direction
+    left = np.einsum("aij,aj->ai", by_reaction, direction.reshape(-1, 3))
+    left += np.einsum("aij,aj->ai", by_velocity, change.reshape(-1, 3))
+    np.testing.assert_allclose(left.ravel(), -residual, atol=1e-10 * np.abs(residual).max())
 
 
 def test_newton_sharpens():
@@ -111,6 +124,21 @@ def test_softened_problem_has_the_solution_of_the_problem_where_it_stays():
     # The blocks that sweeps see are those of the matrix.
     own = soft.matrix.toarray()[6:9, 6:9]
     np.testing.assert_allclose(soft.block[soft.own[2]], own, atol=1e-14)
+
+
+def test_each_point_is_solved_to_a_share_of_what_the_problem_itself_lacks(monkeypatch):
+    problem, _ = random_problem(4)
+    asked, sweeps = [], ContactProblem.sweeps
+
+    def watched(soft, aim, most, r):
+        asked.append((aim, max(0.1 * 1e-8, NEAR * max(problem.errors(r)))))
+        return sweeps(soft, aim, most, r)
+
+    monkeypatch.setattr(ContactProblem, "sweeps", watched)
+    proximal_points(problem, np.zeros(24), 1e-8, 6)
+    aims, expected = zip(*asked)
+    assert len(aims) > 2
+    np.testing.assert_array_equal(aims, expected)
 
 
 @pytest.mark.parametrize("cells, seed, friction", [(3, 10, 0.9), (3, 7, 1.2)])

@@ -71,6 +71,8 @@ def test_pairs_across_one_whole_slab():
         position = np.zeros((9, 3))
         position[:, 0] = step * np.arange(9)
         slabs, _, _ = dealt(position, np.full(9, 1e-3), 2e-4)
+        turned, _, _ = dealt(position[::-1], np.full(9, 1e-3), 2e-4)
+        np.testing.assert_array_equal(turned.begin, slabs.begin)
         last = slabs.begin.size - 2
         number = np.repeat(np.arange(last + 1), np.diff(slabs.begin))
         np.testing.assert_array_equal(
