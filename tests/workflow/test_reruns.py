@@ -111,7 +111,6 @@ ALL_BONDED = """condense 7 condense_facets 6 condense_part 1 condense_likely 1 r
     simulate_packed_facets 3 simulate_likely 6 """
 # What a change reruns that computes something; with ... the figures and tables that follow, else nothing more.
 PAPER = {
-    "nothing": ([], ""),
     "a comment in a rule and in a kernel, a number written otherwise": (
         [
             Change("workflow/rules/fit.smk", "", "\n# more\n"),
