@@ -62,7 +62,7 @@ def test_a_folder_of_the_clone_is_as_good_as_its_root():
     law = "results/paper/laws/pascal/T15.json"  # of the paper's study alone
     done = snakemake("--dry-run", "--nolock", "--snakefile", "../Snakefile", law, folder=ROOT / "docs")
     assert done.returncode == 0, done.stderr
-    assert re.search(rf"^ +output: {law}$", done.stdout + done.stderr, re.M)
+    assert re.search("^pascal_law +1$", done.stdout + done.stderr, re.M)
     assert not (ROOT / "docs/.snakemake").exists()
 
 

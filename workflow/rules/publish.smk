@@ -142,7 +142,7 @@ PUBLISHED = {
         ["layouts.csv", "refusals.csv", "provenance.json"],
         {"layouts": "summary.csv", "mends": "mends.csv"},
         modules=["cli.diagnose", "cli.new_study"],
-        sources="trials/layouts/*.py",
+        sources="trials/layouts/*.*",
     ),
 }
 
