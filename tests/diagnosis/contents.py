@@ -31,6 +31,7 @@ SOUND = {
         "test_type": "bending",
         "specimens": ["A"],
         "isotherms_C": [4.0, 12.0, 20.0, 35.0],
+        "frequencies_Hz": [0.1, 0.5, 1.0, 5.0],
         "quality_columns": [],
         "limits_exceeded": [],
         "notes": [],

@@ -216,7 +216,24 @@ BAD_TABLES = {
     "no specimen": ([M, ",15,10,20000,14"], "line 2: specimen is empty"),
     "duplicate": (
         [M, MODULUS, "B,15,10,20000,14", "A,15.0,10,21000,14"],
-        "line 4: repeats the test of line 2",
+        "line 4: repeats the test of line 2, with other values (E_MPa 20000 and 21000): is a name, a temperature or",
+    ),
+    "duplicate of equal values": (
+        [M, MODULUS, "B,15,10,20000,14", MODULUS],
+        "line 4: repeats the test of line 2, with equal values; keep one of the two.",
+    ),
+    "a block under another name": (
+        [M, MODULUS, "A,25,10,9000,20", "A,15,10,20000,15", "A,25,10,9500,21"],
+        "repeats the test of line 2, and so does 1 more row, with other values (phase_deg 14 and 15): is the name of "
+        "this block, specimen A, wrong? Correct it.",
+    ),
+    "a block at another temperature": (
+        [M, MODULUS, "A,15,3,18000,16", "A,15,10,9000,20", "A,15,3,7000,22"],
+        "is the temperature of this block, 15 degC, or its name, specimen A, wrong? Correct it.",
+    ),
+    "a digit too many": (
+        [M, "A,15,3,18000,16", "A,15,10,200000.1,15", "A,15,25,21000,14"],
+        "line 3: |E*| 200000 MPa, where its other frequencies ask for about 19700 MPa: a digit too many",
     ),
     "origin": ([M + ",origin", MODULUS + ",guessed"], "line 2: origin 'guessed' is not known"),
     "no rows": ([M], "the table has a header but no rows"),

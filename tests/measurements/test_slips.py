@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from asphalt_nscd.measurements.slips import slips, unit_in_question
+from asphalt_nscd.measurements.slips import digit_too_many, slips, unit_in_question
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
 
@@ -67,6 +67,43 @@ def at(celsius, column, of, table=None):
 )
 def test_slips_of_a_mix_are_told_by_name(table, said):
     assert said in next(slips(table))
+
+
+@pytest.mark.parametrize(
+    "rows, where",
+    [
+        ("specimen == 'B' and temperature_C == 10", "of specimen B at 10 degC (median"),
+        ("specimen == 'B'", "of specimen B in all its tests"),
+        ("specimen in ['A', 'B'] and temperature_C == 0", "of specimen A at 0 degC"),
+    ],
+)
+def test_complements_of_a_specimen_are_told_of_it_alone(rows, where):
+    table = bitumen()
+    wrong = table.eval(rows)
+    table["phase_deg"] = table["phase_deg"].where(~wrong, 90.0 - table["phase_deg"])
+    told = [said for said in slips(table) if "90 deg less" in said]
+    assert where in told[0] and len(told) == table[wrong]["specimen"].nunique()
+
+
+def test_phases_that_are_high_in_one_specimen_are_not_taken_for_complements():
+    table = bitumen()
+    table.loc[table.eval("specimen == 'B' and temperature_C == 20"), "phase_deg"] += 25.0
+    assert not list(slips(table))
+
+
+@pytest.mark.parametrize("name, factor", [("E_MPa", 100.0), ("E_MPa", 1000.0), ("phase_deg", 10.0)])
+def test_a_value_with_a_digit_too_many_is_held_against_its_sweep(name, factor):
+    table = bitumen()
+    row = int(np.flatnonzero(table.eval("specimen == 'B' and temperature_C == 10 and frequency_Hz == 10"))[0])
+    table.loc[row, name] *= factor
+    found, told = digit_too_many(table, name)
+    assert found == row and "digit too many" in told
+    assert f"{table.loc[row, name] / factor:g} " in told
+    neighbours = table[table.eval("specimen == 'B' and temperature_C == 10")][name].drop(row)
+    assert neighbours.min() < float(told.split("about ")[1].split()[0]) < neighbours.max()
+    # A whole column in another unit is none.
+    table[name] *= factor
+    assert digit_too_many(table, name) is None
 
 
 @pytest.mark.parametrize(

@@ -14,12 +14,13 @@ from asphalt_nscd.files.csvinput import Table, read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.paths import inside
 from asphalt_nscd.files.store import write_table
-from asphalt_nscd.files.words import counted
+from asphalt_nscd.files.words import counted, specimen_named
 from asphalt_nscd.measurements import signals, twopoint
 from asphalt_nscd.measurements.campaign import nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry
 from asphalt_nscd.measurements.limits import LIMITS, least_modulus
 from asphalt_nscd.measurements.signs import wrong_sign
+from asphalt_nscd.measurements.slips import digit_too_many
 
 LEAST_TESTS, LEAST_FREQUENCIES = 4, 2  # that a diagnosis takes
 ORIGINS = ("measured", "digitised", "reconstructed", "synthetic")
@@ -77,7 +78,10 @@ def reduced_frame(
     frame, form = _tests(table, tests)
     if form == "moduli":
         for name in FORMS[form]:
-            frame[name] = table.numbers(name, LIMITS[name])
+            frame[name] = table.numbers(name)
+            if (told := digit_too_many(frame, name)) is not None:
+                raise table.error(*told)
+            table.numbers(name, LIMITS[name])
         stiffness, softest = frame["E_MPa"], 1.0
     else:
         specimens = read_geometry(geometry, frame["specimen"])
@@ -137,19 +141,45 @@ def _read_keys(table: Table, tests: Sequence[str] = KEYS) -> pd.DataFrame:
     for name in tests:
         frame[name] = table.text(name) if name in LABELS else table.numbers(name, LIMITS.get(name))
     origin = table.text("origin") if "origin" in table.columns else ["measured"] * len(frame)
-    seen: dict[tuple, int] = {}
-    for row, test in enumerate(frame.itertuples(index=False, name=None)):
-        if origin[row] not in ORIGINS:
-            raise table.error(row, f"origin {origin[row]!r} is not known; write one of {', '.join(ORIGINS)}.")
-        first = seen.setdefault(test, row)
-        if first != row:
-            raise table.error(row, f"repeats the test of {_place(table, first)}; keep one of the two.")
+    for row, word in enumerate(origin):
+        if word not in ORIGINS:
+            raise table.error(row, f"origin {word!r} is not known; write one of {', '.join(ORIGINS)}.")
+    again = np.flatnonzero(frame.duplicated())
+    if again.size:
+        raise table.error(int(again[0]), _repetition(table, frame, again))
     frame["origin"] = origin
     return frame
 
 
-def _place(table: Table, row: int) -> str:
-    return f"line {table.lines[row]}" if table.files is None else table.place(row)
+def _repetition(table: Table, frame: pd.DataFrame, again: NDArray[np.int64]) -> str:
+    """What rows `again` (n,) are, whose specimen and condition earlier rows have, and their mend."""
+    rows = pd.Series(frame.index, frame.index)
+    earlier = rows.groupby([frame[name] for name in frame]).transform("first").to_numpy()[again]
+    names = [name for form in FORMS.values() for name in form if name in table.columns]
+    values = pd.DataFrame({name: table.columns[name] for name in names})
+    now, before = values.iloc[again], values.iloc[earlier]
+    differ = now.to_numpy() != before.to_numpy()
+    row, of = int(earlier[0]), frame.iloc[again[differ.any(axis=1)]]
+    told = f"repeats the test of line {table.lines[row]}"
+    if table.files is not None and table.files[row] != table.files[int(again[0])]:
+        told = f"repeats the test of {table.place(row)}"
+    if again.size > 1:
+        told += f", and so {'do' if again.size > 2 else 'does'} {counted(again.size - 1, 'more row')}"
+    if of.empty:
+        return f"{told}, with equal values; keep one of the two."
+    place = int(np.flatnonzero(differ.any(axis=1))[0])
+    both = [
+        f"{name} {before[name].iloc[place]} and {now[name].iloc[place]}"
+        for name in now.columns[differ[place]]
+    ]
+    block, at = specimen_named(str(of["specimen"].iloc[0])), of["temperature_C"].unique()
+    if len(of) == 1 or of["specimen"].nunique() > 1:
+        ask = "is a name, a temperature or a frequency wrong? Correct it, or keep the true one of the two"
+    elif at.size > 1:
+        ask = f"is the name of this block, {block}, wrong? Correct it"
+    else:
+        ask = f"is the temperature of this block, {at[0]:g} degC, or its name, {block}, wrong? Correct it"
+    return f"{told}, with other values ({', '.join(both)}): {ask}."
 
 
 def _form_of(table: Table) -> str:

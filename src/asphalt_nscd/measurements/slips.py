@@ -40,6 +40,8 @@ USUAL_GLASSY = (14e3, 60e3)  # MPa, which a table in another unit must come to
 MOST_TESTS = 0.75  # of a table in the unit that it says; single ones may be wrong
 TURNED = 10.0  # deg, within which 90 less a phase is what |E*| requires
 SMOOTH = 0.15  # of ln |E*|
+SWEEP = "specimen", "temperature_C"
+OFF_SWEEP = 0.3  # of the logarithm, by which a value without its digit too many may leave its sweep
 ROUGH = 0.8  # of ln |E*| over the isotherms, that no mix leaves of a parabola
 COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
 
@@ -58,6 +60,27 @@ def slips(table: pd.DataFrame) -> Iterator[str]:
         yield from _warmer_but_stiffer(table)
         yield from _order_of_isotherms(table)
         yield from _unit_of_all_moduli(table)
+
+
+def digit_too_many(table: pd.DataFrame, name: str) -> tuple[int, str] | None:
+    """The row, and a sentence, of a value that no test has, and that its sweep has a tenth or a hundredth of."""
+    limits, unit = LIMITS[name], name.rpartition("_")[2]
+    words = "|E*|" if name == "E_MPa" else "phase"
+    inside = table[name].between(limits.low, limits.high)
+    for row in np.flatnonzero(table[name] > limits.high):
+        value = float(table[name].iloc[row])
+        own = (table[list(SWEEP)] == table[list(SWEEP)].iloc[row]).all(axis=1) & inside
+        others = table[own].sort_values("frequency_Hz")
+        log_f = np.log(table["frequency_Hz"].iloc[row])
+        expected = np.interp(log_f, np.log(others["frequency_Hz"]), others[name]) if len(others) > 1 else 0.0
+        times = 10.0 ** np.round(np.log10(value / expected)) if expected > 0.0 else 1.0
+        if times > 1.0 and abs(np.log(value / times / expected)) < OFF_SWEEP:
+            asked = f"{float(f'{expected:.3g}'):g} {unit}"
+            return int(row), (
+                f"{words} {value:g} {unit}, where its other frequencies ask for about {asked}: a digit too many, or a "
+                f"lost decimal point? {value / times:g} {unit} would fit; correct it."
+            )
+    return None
 
 
 def units_of_labels(table: pd.DataFrame) -> Iterator[str]:
@@ -131,16 +154,39 @@ def _radians(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _complements(table: pd.DataFrame) -> Iterator[str]:
-    """Phases that are 90 degrees less what they should be, of all specimens at an isotherm."""
+    """Phases that are 90 degrees less what they should be: of specimens that differ from another, else of isotherms."""
     seen = pd.DataFrame(_sweeps(table), columns=["specimen", "temperature_C", "slope", "phase_deg"])
-    median = seen.groupby("temperature_C")[["slope", "phase_deg"]].median()
-    required = 90.0 * median["slope"]
-    turned = (90.0 - median["phase_deg"] - required).abs() < TURNED
-    at = median[turned & ((median["phase_deg"] - required) > 2.0 * TURNED)]
+    seen["required"] = 90.0 * seen["slope"]
+    seen["turned"] = 90.0 - seen["phase_deg"]
+    unclear = (seen["turned"] - seen["phase_deg"]).abs() <= 2.0 * TURNED  # near 45 deg the two are alike
+    # Another specimen is the witness; of two sweeps, each 90 deg less the other, |E*| tells which one is wrong.
+    nearer = (seen["turned"] - seen["required"]).abs() < (seen["phase_deg"] - seen["required"]).abs() - TURNED
+    alike = [
+        bool(
+            ((seen["phase_deg"] - one.turned).abs() < TURNED)[
+                seen["temperature_C"] == one.temperature_C
+            ].any()
+        )
+        for one in seen.itertuples()
+    ]
+    alone = seen[nearer & np.array(alike, bool) & ~unclear]
+    for specimen, own in alone.groupby("specimen", sort=False):
+        whole = len(own) > 1 and not ((seen["specimen"] == specimen) & ~unclear).drop(own.index).any()
+        where = "in all its tests" if whole else f"at {_listed(own['temperature_C'].to_numpy())} degC"
+        yield (
+            f"the phases of {specimen_named(str(specimen))} {where} (median "
+            f"{_listed(own['phase_deg'].to_numpy())}) look like 90 deg less the phase: |E*| and the other specimens "
+            f"ask for about {_listed(own['turned'].round().to_numpy())} deg; subtract them from 90."
+        )
+    median = seen.drop(alone.index).groupby("temperature_C")[["required", "turned", "phase_deg"]].median()
+    at = median[
+        ((median["turned"] - median["required"]).abs() < TURNED)
+        & (median["phase_deg"] - median["required"] > 2.0 * TURNED)
+    ]
     if len(at):
         yield (
             f"the phases at {_listed(at.index.to_numpy())} degC (median {_listed(at['phase_deg'].to_numpy())}) look "
-            f"like 90 deg less the phase: |E*| requires about {_listed((90.0 * at['slope']).round().to_numpy())} deg; "
+            f"like 90 deg less the phase: |E*| requires about {_listed(at['required'].round().to_numpy())} deg; "
             "subtract them from 90."
         )
 

@@ -246,7 +246,8 @@ class Results:
                 "phase_deg": 20.0, "phase_low_deg": 19.0, "phase_high_deg": 21.0, "within_the_tests": True,
             },
             "reading": {
-                "test_type": "bending", "specimens": ["1", "2"], "isotherms_C": [0.0, 20.0], "quality_columns": [],
+                "test_type": "bending", "specimens": ["1", "2"], "isotherms_C": [0.0, 20.0],
+                "frequencies_Hz": [1.0, 10.0], "quality_columns": [],
                 "limits_exceeded": [], "notes": [], "off_target": [], "not_tested": [], "files_without_tests": [],
             },
         }  # fmt: skip

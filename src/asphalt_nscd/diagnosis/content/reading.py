@@ -45,6 +45,7 @@ class Reading(TypedDict):
     test_type: Test that gave the moduli.
     specimens: Names of the specimens.
     isotherms_C: Nominal temperatures, degrees Celsius.
+    frequencies_Hz: Frequencies tested, Hz.
     off_target: Isotherms of a specimen that were measured further from their target than T 378 allows; absent if none
         was.
     quality_columns: Quality columns of the machine that the files give.
@@ -58,6 +59,7 @@ class Reading(TypedDict):
     test_type: Literal["bending", "tension-compression", "unknown"]
     specimens: list[str]
     isotherms_C: list[float]
+    frequencies_Hz: list[Positive]
     off_target: list[OffTarget]
     quality_columns: list[str]
     limits_exceeded: list[LimitExceeded]

@@ -39,6 +39,7 @@ def reading(
         "test_type": observed.test_type,
         "specimens": list(observed.names),
         "isotherms_C": observed.isotherms.tolist(),
+        "frequencies_Hz": observed.frequencies.tolist(),
         "quality_columns": [name for name in quality.COLUMNS if name in observed.quality],
         "limits_exceeded": above,
         "notes": [*notes, *together, *_quality_notes(above, observed)],
