@@ -48,10 +48,12 @@ def out(observed):
     return [one.row for one in suspects.find(observed) if not one.used]
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(6, 12))
 def test_clean_campaign_loses_no_test(seed):
     observed = campaign(seed)
-    assert not out(observed)
+    found = suspects.find(observed)
+    # In two of these tables one value of all 108 lies as far from its replicates as one of 200 does by chance.
+    assert all(one.used and "replicate" not in " ".join(one.reasons) for one in found)
     assert not suspects.broken_isotherms(observed)
 
 

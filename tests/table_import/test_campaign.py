@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import pandas as pd
 import pytest
 from table_import.slips import columns, exports, plain, refused, said
 
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.reduction import reduce_table
 from asphalt_nscd.table_import.campaign import read_campaign
+from asphalt_nscd.table_import.frames import campaign_of
 
 TABLE = "Sample;T (°C);f (Hz);E (MPa);phi (°)\nA;20;10;5000;20\nB;20;10;5100;21\n"
 PEAKS = "T_C,f_Hz,F0_N,z0_m,psi_deg\n10,5,60,5e-5,20\n"
@@ -38,6 +40,15 @@ def specimens(campaign):
 
 def files(campaign):
     return [path.name for path in campaign.files]
+
+
+def test_the_test_type_that_is_stated_comes_before_that_of_a_frame():
+    frame = pd.DataFrame(
+        {"specimen": ["A"], "temperature_C": [20], "frequency_Hz": [1], "E_MPa": [5e3], "phase_deg": [20]}
+    )
+    frame.attrs["test_type"] = "bending"
+    assert campaign_of(frame, test_type="tension-compression").test_type == "tension-compression"
+    assert campaign_of(frame).test_type == "bending"
 
 
 def test_folder_is_one_table_whose_errors_name_the_file(tmp_path):
