@@ -116,17 +116,40 @@ class VariationAt(TypedDict):
     within: Variation | None
 
 
+class Furthest(TypedDict):
+    """The specimen that stands out most against the others, by mean |E*| or by the temperature that would explain it.
+
+    specimen: Its name.
+    E_percent: Mean difference of its |E*| from that of the others, percent.
+    kelvin: How much warmer it would have to be, K.
+    E_over_usual: The difference over what specimens of one laboratory usually differ by.
+    kelvin_over_usual: The same of the temperature.
+    E_percent_told: Difference that would be told in 95 % of tables, percent.
+    kelvin_told: The same of the temperature, K.
+    """
+
+    specimen: str
+    E_percent: float
+    kelvin: float
+    E_over_usual: NotNegative
+    kelvin_over_usual: NotNegative
+    E_percent_told: Positive
+    kelvin_told: Positive
+
+
 class Repeatability(TypedDict):
     """The scatter as a laboratory quotes it, of the tests used; null where nothing was repeated.
 
     between: Specimens at one temperature and frequency, all isotherms.
     within: Tests of one specimen about its own level, all isotherms.
     by_isotherm: The same for each isotherm.
+    furthest: The specimen that stands out most; null where nothing compares them.
     """
 
     between: Variation | None
     within: Variation | None
     by_isotherm: list[VariationAt]
+    furthest: Furthest | None
 
 
 class FileSum(TypedDict):

@@ -12,12 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from asphalt_nscd.diagnosis.observed.apart import furthest
 from asphalt_nscd.diagnosis.observed.observations import Observations, Vector
 from asphalt_nscd.diagnosis.observed.scatter import unexplained
 
 
 def coefficients(observed: Observations) -> dict[str, Any] | None:
-    """Coefficients of variation `between` and `within` specimens, for all tests and by isotherm.
+    """Coefficients of variation `between` and `within` specimens, for all tests and by isotherm; who is `furthest`.
 
     Each is {"E_percent", "phase_deg"}; `within` is None where it cannot be told from the specimens' levels. The whole
     is None where nothing was repeated.
@@ -30,6 +31,7 @@ def coefficients(observed: Observations) -> dict[str, Any] | None:
     if not rows:
         return None
     return {
+        "furthest": furthest(observed),
         **{way: _pooled([row[way] for row in rows.values()]) for way in ("between", "within")},
         "by_isotherm": [
             {"temperature_C": t, **{way: _pooled([row[way]]) for way in ("between", "within")}}

@@ -13,6 +13,7 @@ from tabulate import tabulate
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.criteria import LEAST_ISOTHERMS, NAMED
 from asphalt_nscd.diagnosis.next_tests.fixed_orders import HALF
+from asphalt_nscd.diagnosis.observed.apart import STANDS_OUT
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words import facts, sentences, tables
 from asphalt_nscd.files.templates import items, template
@@ -65,7 +66,13 @@ def _template() -> Template:
     names: dict[str, Any] = (
         vars(sentences) | vars(facts) | {"places": levels.places, "ONE_MIX": levels.ONE_MIX}
     )
-    names |= {"CATALOGUE": CATALOGUE, "LEAST_ISOTHERMS": LEAST_ISOTHERMS, "NAMED": NAMED, "HALF": HALF}
+    names |= {
+        "CATALOGUE": CATALOGUE,
+        "LEAST_ISOTHERMS": LEAST_ISOTHERMS,
+        "NAMED": NAMED,
+        "HALF": HALF,
+        "STANDS_OUT": STANDS_OUT,
+    }
     names |= {"OFF_TARGET": OFF_TARGET, "UNKNOWN": UNKNOWN, "ORIGINS": ORIGINS}
     names |= {"TESTS_OF": TEST_TYPES | {UNKNOWN: "tests of another kind, or of one that was not said"}}
     return template("diagnosis/words/words.j2", vars(sentences), names)

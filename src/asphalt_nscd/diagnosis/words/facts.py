@@ -11,6 +11,7 @@ from asphalt_nscd.diagnosis.causes._cause import MATERIAL
 from asphalt_nscd.diagnosis.content.doubts import ITSELF, LEFT_OUT
 from asphalt_nscd.diagnosis.criteria import ALPHA_PER_STEP
 from asphalt_nscd.diagnosis.observed import quality
+from asphalt_nscd.diagnosis.observed.apart import STANDS_OUT
 from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.simulation.bond_mapping import NAME as BOND_MAPPING
 from asphalt_nscd.diagnosis.words.sentences import cause_words, numbers, spell_cause
@@ -204,6 +205,15 @@ def odd(content: Content) -> list[str]:
 def whole_specimens(content: Content) -> list[str]:
     """Specimens whose phase is odd in all tests."""
     return [one["specimen"] for one in content["odd_phases"] if one["temperature_C"] is None]
+
+
+def stands_out(content: Content) -> Content | None:
+    """The specimen that is told to stand out, where nothing else that is said of it explains why."""
+    one = content["repeatability"] and content["repeatability"]["furthest"]
+    if not one or max(one["E_over_usual"], one["kelvin_over_usual"]) < STANDS_OUT:
+        return None
+    told = [odd["specimen"] for of in ("levels", "phases", "temperatures") for odd in content[f"odd_{of}"]]
+    return None if one["specimen"] in [*told, *(rung["where"] for rung in content["ladder"])] else one
 
 
 def fit_as_well(rungs: Sequence[Content], content: Content) -> bool:
