@@ -204,11 +204,56 @@ def test_what_is_odd_or_contradicts_itself_is_checked_first():
 def test_what_clears_a_doubtful_test_is_said(broken, check_at, said):
     """Within 2.8 standard deviations of one specimen."""
     at = [{"temperature_C": t, "worst_Hz": 25.0, "worst_deg": 9.0} for t in broken]
-    scatter = {"between": None, "within": {"E_percent": 4.5, "phase_deg": 0.58}, "by_isotherm": []}
+    scatter = {
+        "between": None,
+        "within": {"E_percent": 4.5, "phase_deg": 0.58},
+        "by_isotherm": [],
+        "furthest": None,
+    }
     trust = {"use": 60, "check": 12, "check_at_C": check_at}
     told = reason("what_clears", trust=trust, contradictory_isotherms=at, repeatability=scatter)
     rest = "doubtful test after the check. If both agree within 13 % in |E*| and 1.6 deg in phase, keep the old one, "
     assert told == [f"Repeat {said} {rest}else use the new."] * bool(said)
+
+
+STANDING_OUT = {
+    "specimen": "B", "E_percent": -20.4, "kelvin": 2.1, "E_over_usual": 2.5, "kelvin_over_usual": 4.0,
+    "E_percent_told": 30.1, "kelvin_told": 2.14,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "changed, told",
+    [
+        (
+            {},
+            "20 % below that of the other, as if it were 2.1 K warmer than stated. Specimens of one laboratory differ",
+        ),
+        (
+            {"kelvin_over_usual": 2.9, "E_over_usual": 3.1, "E_percent": 20.0},
+            "20 % above that of the other. Specimens",
+        ),
+        ({"kelvin_over_usual": 2.9}, None),
+    ],
+)
+def test_the_specimen_that_stands_out_is_told_beside_the_scatter(changed, told):
+    both = {"E_percent": 13.3, "phase_deg": 1.2}
+    scatter = {"between": both, "within": None, "by_isotherm": [], "furthest": STANDING_OUT | changed}
+    assert [told in said for said in row("Scatter", repeatability=scatter)[1:]] == [True] * bool(told)
+    off = "A specimen whose |E*| is off by less than 30 %, or its temperature by less than 2.1 K."
+    assert off in row("Not visible", repeatability=scatter)
+    # Nobody tells it a second time.
+    odd = [{"specimen": "B", "temperature_C": None, "phase_deg": 2.0}]
+    assert len(row("Scatter", repeatability=scatter, odd_phases=odd)) == 1
+
+
+def test_frequencies_that_the_campaign_has_not_are_told_as_new():
+    order = {
+        "text": "2 h: test.", "why": [], "act": "test specimen A", "half_strain": False, "nats": 1.0,
+        "frequencies_Hz": [0.03, 0.1, 0.5, 1.0], "purpose": "to see", "hours": 2.0,
+    }  # fmt: skip
+    said = row("Next tests", instructions={"costs": "", "orders": [order]})
+    assert said[-1] == "1. Test specimen A, all frequencies (0.03 Hz is new), to see (2.0 h)."
 
 
 def test_a_highest_frequency_that_is_off_is_checked_first():

@@ -247,7 +247,7 @@ class Results:
             },
             "reading": {
                 "test_type": "bending", "specimens": ["1", "2"], "isotherms_C": [0.0, 20.0],
-                "frequencies_Hz": [1.0, 10.0], "quality_columns": [],
+                "frequencies_Hz": [1.0, 25.0], "quality_columns": [],
                 "limits_exceeded": [], "notes": [], "off_target": [], "not_tested": [], "files_without_tests": [],
             },
         }  # fmt: skip

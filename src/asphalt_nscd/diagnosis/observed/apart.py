@@ -36,7 +36,7 @@ def _compared(observed: Observations, k: int) -> dict[str, Any] | None:
     per_kelvin = np.gradient(others, observed.isotherms, axis=1)
     per_time = np.gradient(others, np.log(observed.frequencies), axis=0)
     known = np.isfinite(own + per_kelvin + per_time)
-    if known.any(axis=0).sum() < 2:
+    if known.any(axis=0).sum() < 2 or not per_kelvin[known].real.any():
         return None
     sweep = np.eye(observed.isotherms.size)[np.nonzero(known)[1]]
     left, kelvin, time = (_stacked(x[known][:, None])[:, 0] for x in (own - others, per_kelvin, per_time))
@@ -55,9 +55,9 @@ def _compared(observed: Observations, k: int) -> dict[str, Any] | None:
     times = others_too * usual["specimen times"]
     weight = np.linalg.solve(covariance, kelvin)
     warmer, variance = weight @ left / (weight @ kelvin), 1.0 / (weight @ kelvin)
-    # Longer relaxation times are as many kelvin as |E*| says.
-    variance += times / np.median(np.abs(kelvin[level > 0.0] / time[level > 0.0])) ** 2
     mean = level / level.sum()
+    # Longer relaxation times are as many kelvin as |E*| says.
+    variance += times * ((mean @ np.abs(time)) / (mean @ np.abs(kelvin))) ** 2
     of_mean = mean @ covariance @ mean + times * (mean @ time) ** 2
     told = STANDS_OUT + Z_95
     return {
