@@ -71,7 +71,7 @@ def _compared(observed: Observations, k: int) -> dict[str, Any] | None:
     }
 
 
-def _stacked(values: Complex) -> NDArray[np.float64]:
+def _stacked(values: NDArray) -> NDArray[np.float64]:
     """Real part above the imaginary one."""
     return np.concatenate([values.real, values.imag])
 
