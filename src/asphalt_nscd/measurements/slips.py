@@ -66,13 +66,14 @@ def digit_too_many(table: pd.DataFrame, name: str) -> tuple[int, str] | None:
     """The row, and a sentence, of a value that no test has, and that its sweep has a tenth or a hundredth of."""
     limits, unit = LIMITS[name], name.rpartition("_")[2]
     words = "|E*|" if name == "E_MPa" else "phase"
-    inside = table[name].between(limits.low, limits.high)
+    inside = table[table[name].between(limits.low, limits.high)]
     for row in np.flatnonzero(table[name] > limits.high):
-        value = float(table[name].iloc[row])
-        own = (table[list(SWEEP)] == table[list(SWEEP)].iloc[row]).all(axis=1) & inside
-        others = table[own].sort_values("frequency_Hz")
+        value, key = float(table[name].iloc[row]), table[list(SWEEP)].iloc[row]
+        others = inside[(inside[list(SWEEP)] == key).all(axis=1)].sort_values("frequency_Hz")
+        if len(others) < 2:
+            continue
         log_f = np.log(table["frequency_Hz"].iloc[row])
-        expected = np.interp(log_f, np.log(others["frequency_Hz"]), others[name]) if len(others) > 1 else 0.0
+        expected = float(np.interp(log_f, np.log(others["frequency_Hz"]), others[name]))
         times = 10.0 ** np.round(np.log10(value / expected)) if expected > 0.0 else 1.0
         if times > 1.0 and abs(np.log(value / times / expected)) < OFF_SWEEP:
             asked = f"{float(f'{expected:.3g}'):g} {unit}"
@@ -173,22 +174,22 @@ def _complements(table: pd.DataFrame) -> Iterator[str]:
     for specimen, own in alone.groupby("specimen", sort=False):
         whole = len(own) > 1 and not ((seen["specimen"] == specimen) & ~unclear).drop(own.index).any()
         where = "in all its tests" if whole else f"at {_listed(own['temperature_C'].to_numpy())} degC"
-        yield (
-            f"the phases of {specimen_named(str(specimen))} {where} (median "
-            f"{_listed(own['phase_deg'].to_numpy())}) look like 90 deg less the phase: |E*| and the other specimens "
-            f"ask for about {_listed(own['turned'].round().to_numpy())} deg; subtract them from 90."
+        yield _complement(
+            f"of {specimen_named(str(specimen))} {where}", own, "|E*| and the other specimens ask for"
         )
-    median = seen.drop(alone.index).groupby("temperature_C")[["required", "turned", "phase_deg"]].median()
-    at = median[
-        ((median["turned"] - median["required"]).abs() < TURNED)
-        & (median["phase_deg"] - median["required"] > 2.0 * TURNED)
-    ]
+    rest = seen.drop(columns="specimen").drop(alone.index).groupby("temperature_C", as_index=False).median()
+    at = rest[(rest["turned"] - rest["required"]).abs() < TURNED]
+    at = at[at["phase_deg"] - at["required"] > 2.0 * TURNED]
     if len(at):
-        yield (
-            f"the phases at {_listed(at.index.to_numpy())} degC (median {_listed(at['phase_deg'].to_numpy())}) look "
-            f"like 90 deg less the phase: |E*| requires about {_listed(at['required'].round().to_numpy())} deg; "
-            "subtract them from 90."
-        )
+        yield _complement(f"at {_listed(at['temperature_C'].to_numpy())} degC", at, "|E*| requires")
+
+
+def _complement(where: str, sweeps: pd.DataFrame, who: str) -> str:
+    phases, asked = sweeps["phase_deg"].to_numpy(), sweeps["turned"].round().to_numpy()
+    return (
+        f"the phases {where} (median {_listed(phases)}) look like 90 deg less the phase: {who} about {_listed(asked)} "
+        "deg; subtract them from 90."
+    )
 
 
 def _units_of_isotherms(table: pd.DataFrame) -> Iterator[str]:

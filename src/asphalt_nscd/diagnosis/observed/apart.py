@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.criteria import LABORATORY, Z_95
@@ -39,20 +40,19 @@ def _compared(observed: Observations, k: int) -> dict[str, Any] | None:
     if known.any(axis=0).sum() < 2 or not per_kelvin[known].real.any():
         return None
     sweep = np.eye(observed.isotherms.size)[np.nonzero(known)[1]]
-    left, kelvin, time = (_stacked(x[known][:, None])[:, 0] for x in (own - others, per_kelvin, per_time))
-    level, angle = (_stacked(unit * np.ones((known.sum(), 1)))[:, 0] for unit in (1.0, 1j))
-    usual = {name: one.size**2 for name, one in LABORATORY.items()}
-    of_tests = np.repeat(np.square(ONE_TEST), known.sum())
-    parts = [
-        (usual["specimen temperature"], _stacked(per_kelvin[known][:, None] * sweep)),
-        (usual["mounting, modulus"], _stacked(sweep + 0j)),
-        (usual["mounting, phase"], _stacked(1j * sweep)),
-        (SPECIMEN_SCALE**2, level[:, None]),
-        (SPECIMEN_PHASE**2, angle[:, None]),
+    left, kelvin, time = (_stacked(x[known]) for x in (own - others, per_kelvin, per_time))
+    level = np.repeat([1.0, 0.0], known.sum())
+    usual = {name: one.size for name, one in LABORATORY.items()}
+    roots = [
+        usual["specimen temperature"] * _stacked(per_kelvin[known][:, None] * sweep),
+        usual["mounting, modulus"] * _stacked(sweep + 0j),
+        usual["mounting, phase"] * _stacked(1j * sweep),
+        np.column_stack([SPECIMEN_SCALE * level, SPECIMEN_PHASE * (1.0 - level)]),
+        np.diag(np.repeat(ONE_TEST, known.sum())),
     ]
     others_too = 1.0 + 1.0 / (np.unique(observed.specimen).size - 1.0)
-    covariance = others_too * (np.diag(of_tests) + sum(size * root @ root.T for size, root in parts))
-    times = others_too * usual["specimen times"]
+    covariance = others_too * sum(root @ root.T for root in roots)
+    times = others_too * usual["specimen times"] ** 2
     weight = np.linalg.solve(covariance, kelvin)
     warmer, variance = weight @ left / (weight @ kelvin), 1.0 / (weight @ kelvin)
     mean = level / level.sum()
@@ -78,12 +78,6 @@ def _stacked(values: NDArray) -> NDArray[np.float64]:
 
 def _means(observed: Observations, rows: NDArray[np.bool_]) -> Complex:
     """Mean ln E* of some tests by frequency and isotherm, NaN where there are none."""
-    at = (
-        np.searchsorted(observed.frequencies, observed.frequency[rows]),
-        np.searchsorted(observed.isotherms, observed.isotherm[rows]),
-    )
-    total = np.zeros((observed.frequencies.size, observed.isotherms.size), complex)
-    count = np.zeros(total.shape)
-    np.add.at(total, at, observed.logarithm[rows])
-    np.add.at(count, at, 1.0)
-    return np.where(count > 0.0, total / np.maximum(count, 1.0), np.nan)
+    keys = observed.frequency[rows], observed.isotherm[rows]
+    means = pd.Series(observed.logarithm[rows]).groupby(list(keys)).mean().unstack()
+    return means.reindex(index=observed.frequencies, columns=observed.isotherms).to_numpy(complex)
