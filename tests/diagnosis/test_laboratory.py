@@ -148,7 +148,7 @@ def test_a_laboratory_that_holds_its_specimens_alike_holds_its_isotherms():
     assert 0.08 < careless["isotherm temperature"] < 0.4
 
 
-def test_a_mean_variance_is_that_of_the_posterior():
+def test_a_typical_variance_is_that_of_the_posterior():
     """Of one process and one direction the integral is done by the trapezoid."""
     joint, fit = fitted(table(3))
     state = begun(joint, fit)
@@ -163,8 +163,8 @@ def test_a_mean_variance_is_that_of_the_posterior():
             v = np.where(np.arange(state.variances.size) == k, np.exp(2.0 * away), state.variances)
             point = likelihood._point(state.model, one, np.log(v)).objective - found.prior(v)[0]
             weight[at] += np.exp(-0.5 * (point + away**2))
-    expected = (weight * np.exp(2.0 * logarithm)).sum() / weight.sum()
-    told = likelihood.mean_variance(state.model, free, k, (1.0, 1.0), state.variances)
+    expected = np.exp((weight * 2.0 * logarithm).sum() / weight.sum())
+    told = likelihood.typical_variance(state.model, free, k, (1.0, 1.0), state.variances)
     assert told == pytest.approx(expected, rel=0.1)
 
 

@@ -81,7 +81,7 @@ def without_one(found: Processes, fitted: Fitted, variances: Vector) -> Processe
             free = [every.column(at) for at in range(columns.size)]
             if kind == ISOTHERMS:
                 prior = _same_control(variances[kinds.index(SPECIMENS)])
-                variance = likelihood.mean_variance(model, free, k, prior, variances)
+                variance = likelihood.typical_variance(model, free, k, prior, variances)
             else:
                 variance = min(likelihood.estimate(model, one, variances).variances[k] for one in free)
             usual[k], spread[k] = np.sqrt(variance), 0.0

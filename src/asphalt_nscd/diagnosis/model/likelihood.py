@@ -148,12 +148,13 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
     return Estimate(np.exp(log_v), now.misfit, now.amplitude, now.std_error)
 
 
-def mean_variance(
+def typical_variance(
     model: Reduced, free: Sequence[Direction], k: int, size: tuple[float, float], variances: Vector
 ) -> float:
-    """Posterior mean of one variance where one of some directions is free, any of them as likely; others are given.
+    """Posterior mean, of its logarithm, of one variance where any of some directions is free; others are given.
 
-    `size` is the usual size and the spread of its logarithm. A mean and no mode: few isotherms leave its size unknown.
+    `size` is the usual size and the spread of its logarithm. A mean and no mode: few isotherms leave its size unknown;
+    of the logarithm, for the few laboratories that may be far worse would outweigh all others.
     """
     nodes, weights = np.polynomial.hermite_e.hermegauss(NODES)
     tried = (size[0] * np.exp(size[1] * nodes)) ** 2
@@ -166,7 +167,7 @@ def mean_variance(
                 objective - model.processes.prior(v)[0]
             )
     share = np.exp(log_weight - log_weight.max())
-    return float((share @ tried).sum() / share.sum())
+    return float(np.exp((share @ np.log(tried)).sum() / share.sum()))
 
 
 def widen_error(model: Reduced, cause: Direction, found: Estimate) -> Estimate:
