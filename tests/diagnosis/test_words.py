@@ -116,12 +116,14 @@ def test_how_far_each_test_can_be_used_is_one_answer(use, check, out, said):
 def test_a_specimen_that_is_held_back_is_told_on_the_first_screen():
     found = {
         "trust": {"use": 63, "check": 9, "held_back": 9, "check_of": ["A"]},
-        "odd_phases": [{"specimen": "A", "temperature_C": None, "phase_deg": -2.0}],
+        "odd_phases": [
+            {"specimen": "A", "temperature_C": None, "phase_deg": -2.0, "interval_95": [-2.5, -1.5]}
+        ],
     }
     assert row("Data", **found) == [
         "63 of 72 tests can be used, 9 only if a check clears them (all of specimen A)."
     ]
-    assert row("Check first", **found)[0].startswith("Specimen A: phase 2.0 deg below")
+    assert row("Check first", **found)[0].startswith("Specimen A: phase 2.00 +- 0.50 deg below")
     assert row("Law", **found)[0].endswith(" It was fitted to the tests without specimen A.")
 
 
@@ -242,8 +244,14 @@ def test_the_specimen_that_stands_out_is_told_beside_the_scatter(changed, told):
     assert [told in said for said in row("Scatter", repeatability=scatter)[1:]] == [True] * bool(told)
     off = "A specimen whose |E*| is off by less than 30 %, or its temperature by less than 2.1 K."
     assert off in row("Not visible", repeatability=scatter)
+    order = {
+        "text": "2 h: test.", "why": [], "act": "test", "half_strain": False, "nats": 1.0, "frequencies_Hz": [1.0],
+        "purpose": "", "hours": 2.0,
+    }  # fmt: skip
+    needed = row("Next tests", repeatability=scatter, instructions={"costs": "", "orders": [order]})[0]
+    assert ("before specimen B is checked (see Scatter)" in needed) == bool(told)
     # Nobody tells it a second time.
-    odd = [{"specimen": "B", "temperature_C": None, "phase_deg": 2.0}]
+    odd = [{"specimen": "B", "temperature_C": None, "phase_deg": 2.0, "interval_95": [1.5, 2.5]}]
     assert len(row("Scatter", repeatability=scatter, odd_phases=odd)) == 1
 
 

@@ -97,16 +97,16 @@ class OddPhase(TypedDict):
     temperature_C: Isotherm, degrees Celsius; null for all of the specimen.
     phase_deg: Phase minus what the others say, degrees; of a delay, at the highest frequency.
     delay_s: Delay of its displacement channel, where that is what is off, seconds.
-    interval_95: Of delay_s where it is given, else of phase_deg, where the fault was found beside the last fit.
-    probability: Of the fault at this place, where it was found beside the last fit.
+    interval_95: Of delay_s where it is given, else of phase_deg.
+    probability: Of the fault at this place.
     """
 
     specimen: str
     temperature_C: float | None
     phase_deg: float
     delay_s: NotRequired[float]
-    interval_95: NotRequired[Interval]
-    probability: NotRequired[Probability]
+    interval_95: Interval
+    probability: Probability
 
 
 class OddTemperature(TypedDict):
@@ -115,15 +115,15 @@ class OddTemperature(TypedDict):
     specimen: Specimen.
     temperature_C: Isotherm, degrees Celsius.
     kelvin: By how much the specimen seems warmer than stated.
-    interval_95: Of kelvin, where the fault was found beside the last fit.
-    probability: Of the fault at this place, where it was found beside the last fit.
+    interval_95: Of kelvin.
+    probability: Of the fault at this place.
     """
 
     specimen: str
     temperature_C: float
     kelvin: float
-    interval_95: NotRequired[Interval]
-    probability: NotRequired[Probability]
+    interval_95: Interval
+    probability: Probability
 
 
 class HighestFrequency(TypedDict):

@@ -15,7 +15,6 @@ from asphalt_nscd.files.words import specimen_named
 
 EXCHANGED = 0.25  # of ln|E*|, within which two departures are equal and opposite
 ALIKE = 2.0  # factor between the temperatures by |E*| and by phase, within which one error of both is told
-OF_BOTH = ", which explains both: check that first"
 OF_SPECIMEN = "its gauges, channels and mounting"
 ONE_MIX = 25.0  # percent by which specimens of one mix hardly differ; T 378 expects some 13
 
@@ -37,9 +36,8 @@ def sentences(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> lis
 def temperature_notes(found: Iterable[Mapping[str, Any]]) -> list[str]:
     """Temperatures of sweeps and what to check first, a sentence each without its full stop."""
     return [
-        f"at {one['temperature_C']:g} degC {specimen_named(one['specimen'])} seems {_size(one, 'kelvin', '.2g')} K "
-        f"{'warmer' if one['kelvin'] > 0.0 else 'colder'} than stated"
-        + (": check its conditioning and the record" if "interval_95" in one else OF_BOTH)
+        f"at {one['temperature_C']:g} degC {specimen_named(one['specimen'])} seems {_size(one, 'kelvin')} K "
+        f"{'warmer' if one['kelvin'] > 0.0 else 'colder'} than stated: check its conditioning and the record"
         for one in found
     ]
 
@@ -67,7 +65,7 @@ def swap_notes(levels: Sequence[Mapping[str, Any]], temperatures: Sequence[Mappi
 
 
 def described(one: Mapping[str, Any]) -> tuple[str, str]:
-    """What is odd, and what to check, in |E*| or phase; an interval is told where there is one."""
+    """What is odd, and what to check, in |E*| or phase."""
     others = "what its other temperatures and the other specimens say"
     if "factor" in one:
         return (
@@ -77,26 +75,21 @@ def described(one: Mapping[str, Any]) -> tuple[str, str]:
     if "delay_s" in one:
         late = "after" if one["delay_s"] > 0.0 else "before"
         return (
-            f"{place(one)}: displacement recorded {_size(one, 'delay_s', '.2g', 1e3)} ms {late} the force, "
+            f"{place(one)}: displacement recorded {_size(one, 'delay_s', 1e3)} ms {late} the force, "
             f"{abs(one['phase_deg']):.1f} deg at the highest frequency",
             "filters and settings of its channels",
         )
     side = "above" if one["phase_deg"] > 0.0 else "below"
-    size = f"{place(one)}: phase {_size(one, 'phase_deg', '.1f')} deg {side}"
-    if "interval_95" in one and one["temperature_C"] is None:
-        return f"{size} what its |E*| and the other specimens say, in all its tests", OF_SPECIMEN
+    size = f"{place(one)}: phase {_size(one, 'phase_deg')} deg {side}"
     if one["temperature_C"] is None:
-        return f"{size} the mean of the other specimens", OF_SPECIMEN
+        return f"{size} what its |E*| and the other specimens say, in all its tests", OF_SPECIMEN
     return f"{size} {others}", "gauges, channels and temperature of these tests"
 
 
-def _size(one: Mapping[str, Any], key: str, digits: str, factor: float = 1.0) -> str:
-    """Absolute value times a factor, with its interval where there is one."""
-    value = factor * abs(one[key])
-    if "interval_95" not in one:
-        return f"{value:{digits}}"
+def _size(one: Mapping[str, Any], key: str, factor: float = 1.0) -> str:
+    """Absolute value times a factor, with its interval."""
     low, high = one["interval_95"]
-    return interval_text(value, 0.5 * factor * (high - low))
+    return interval_text(factor * abs(one[key]), 0.5 * factor * (high - low))
 
 
 def if_sound(one: Mapping[str, Any]) -> str:
