@@ -49,6 +49,12 @@ def test_a_specimen_at_another_temperature_is_told_with_its_kelvin(warmer):
     assert found["kelvin_over_usual"] > STANDS_OUT
 
 
+def test_a_test_that_is_missing_takes_nothing_else_along():
+    observed = campaign(warmer=2.0)
+    found = furthest(observed.subset(np.arange(observed.size) != 9))
+    assert found["specimen"] == "B" and found["kelvin"] == pytest.approx(2.0, rel=0.05)
+
+
 def test_a_level_is_told_as_a_level():
     found = furthest(campaign(4, level=0.3))
     assert found["specimen"] == "B" and found["E_percent"] == pytest.approx(100.0 * np.expm1(0.3))

@@ -9,7 +9,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import pandas as pd
 from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.criteria import LABORATORY, Z_95
@@ -78,6 +77,12 @@ def _stacked(values: NDArray) -> NDArray[np.float64]:
 
 def _means(observed: Observations, rows: NDArray[np.bool_]) -> Complex:
     """Mean ln E* of some tests by frequency and isotherm, NaN where there are none."""
-    keys = observed.frequency[rows], observed.isotherm[rows]
-    means = pd.Series(observed.logarithm[rows]).groupby(list(keys)).mean().unstack()
-    return means.reindex(index=observed.frequencies, columns=observed.isotherms).to_numpy(complex)
+    at = (
+        np.searchsorted(observed.frequencies, observed.frequency[rows]),
+        np.searchsorted(observed.isotherms, observed.isotherm[rows]),
+    )
+    total = np.zeros((observed.frequencies.size, observed.isotherms.size), complex)
+    count = np.zeros(total.shape)
+    np.add.at(total, at, observed.logarithm[rows])
+    np.add.at(count, at, 1.0)
+    return np.where(count > 0.0, total / np.maximum(count, 1.0), np.nan)
