@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from faults.fault import DEPOSIT, DEPOSIT_LOG, KILLED, Fault
+from faults.fault import DEPOSIT, DEPOSIT_LOG, KILLED, Fault, Unable
 from faults.study import Missed, Run, Study
 
 
@@ -19,7 +19,7 @@ def killed(rule: str, output: str, log: str) -> Fault:
                 return study.killed(log, delay=delay)
             except Missed:  # on a fast machine, a job of a few lines takes less
                 if delay < 0.01:
-                    raise
+                    raise Unable("its job ends within milliseconds, before it can be killed") from None
                 delay /= 4.0
 
     return Fault(f"SIGKILL in {rule}", disturb, KILLED, output)

@@ -59,7 +59,7 @@ class Study(Workspace):
         """A run; `look` is shown the processes of its jobs again and again, as `jobs` gives them."""
         with tempfile.TemporaryFile("w+") as said:
             process = subprocess.Popen(
-                self.command("--cores", "2", "--logger", "steps", *arguments, *self.targets),
+                self.command("--logger", "steps", "--cores", "2", *arguments, *self.targets),
                 cwd=self.folder,
                 env=self.environment,
                 stdout=subprocess.DEVNULL,
