@@ -62,6 +62,6 @@ def test_values_of_one_column_are_told_together_from_least_to_largest():
         {**about, "frequency_Hz": hertz, "reasons": ["x", f"deformation uniformity {value} % (limit 30)"]}
         for hertz, value in ((10.0, "31.2"), (1.0, "104"), (25.0, "56.7"))
     ]
-    ((*_, reasons, frequencies),) = facts.by_isotherm(tests)
+    ((*_, reasons, frequencies),) = facts.grouped_tests(tests)
     assert reasons == ["x", "deformation uniformity 31.2 to 104 % (limit 30)"]
     assert frequencies == [1.0, 10.0, 25.0]

@@ -270,9 +270,9 @@ def test_a_highest_frequency_that_is_off_is_checked_first():
         "phase_interval_95": [5.8, 6.2],
     }  # fmt: skip
     assert row("Fault", highest_frequency=off) == ["None found beside what is to be checked first."]
-    assert facts.off_at_highest(off) == "the phase is 6.00 +- 0.20 deg above"
+    assert facts.highest_departure(off) == "the phase is 6.00 +- 0.20 deg above"
     off |= {"modulus_percent": -8.0, "modulus_interval_95": [-9.0, -7.0], "phase_interval_95": [-0.1, 12.1]}
-    assert facts.off_at_highest(off) == "|E*| is 8.0 +- 1.0 % below"
+    assert facts.highest_departure(off) == "|E*| is 8.0 +- 1.0 % below"
 
 
 @pytest.mark.parametrize("tested,lacks", [(1, "is 1"), (3, "are 3"), (4, "")])

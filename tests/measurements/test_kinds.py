@@ -9,8 +9,9 @@ from typing import get_args, get_type_hints
 import yaml
 
 from asphalt_nscd.diagnosis.content.reading import Reading
+from asphalt_nscd.measurements.further_kinds import ALL_KINDS
 from asphalt_nscd.measurements.geometry import USUAL
-from asphalt_nscd.measurements.kinds import BENDING, TEST_TYPES, UNKNOWN
+from asphalt_nscd.measurements.kinds import BENDING, UNKNOWN
 from asphalt_nscd.table_import.words import WORDS
 
 ROOT = Path(__file__).parents[2]
@@ -25,10 +26,10 @@ def properties(schema: str, *keys: str) -> dict:
 
 
 def test_what_can_be_diagnosed():
-    assert set(WORDS["scheme"]) == {*TEST_TYPES, UNKNOWN}
+    assert set(WORDS["scheme"]) == set(ALL_KINDS)
     for section in ("diagnosis", "tables_beside"):
-        assert properties(STUDY, section, "measured_in")["enum"] == list(TEST_TYPES)
-    assert get_args(get_type_hints(Reading)["test_type"]) == (*TEST_TYPES, UNKNOWN)
+        assert properties(STUDY, section, "measured_in")["enum"] == list(ALL_KINDS)
+    assert get_args(get_type_hints(Reading)["test_type"]) == (*ALL_KINDS, UNKNOWN)
 
 
 def test_what_can_be_simulated():

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from table_import.slips import columns, plain, refused, workbook
 
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.names import specimen_of
 
@@ -108,6 +109,10 @@ def test_summary_export_is_read_as_it_is(tmp_path):
         ("Complex modulus", "unknown"),
         ("Essai de module complexe NF EN 12697-26, 2PB-TR", "bending"),
         ("Flexion deux points", "bending"),
+        ("NF EN 12697-26 annexe A", "bending"),
+        ("EN 12697-26:2018, Anhang D", "tension-compression"),
+        ("EN 12697-26 Annex B (4PB-PR)", "four-point bending"),
+        ("Indirect tension, IT-CY", "indirect tension"),
         ("Dynamic modulus, AASHTO T 378", "tension-compression"),
         ("Zug-Druck-Versuch an Zylindern", "tension-compression"),
     ],
@@ -121,6 +126,45 @@ def test_the_kind_of_test_is_told_by_its_scheme_and_never_assumed(tmp_path, titl
     stated, _ = read_campaign([tmp_path / "t.csv"], test_type="bending")
     assert stated.test_type == "bending"
     assert "--measured-in" not in " ".join(stated.notes)
+
+
+@pytest.mark.parametrize(
+    ("above", "stated"),
+    [
+        (
+            "Fecha;12/03/2026\nNorma;NF EN 12697-26 annexe A",
+            {"date": "12/03/2026", "standard": "NF EN 12697-26 annexe A"},
+        ),
+        ("Date of test: 12.3.2026\nOperator;A. Tester", {"date": "12.3.2026", "operator": "A. Tester"}),
+        (
+            "Ensayo;AASHTO T 378\nMezcla;AC16\nObra;A-7",
+            {"standard": "AASHTO T 378", "mix": "AC16", "project": "A-7"},
+        ),
+        ("Date;Operator;Machine\nx;y;z", {}),
+    ],
+)
+def test_lines_above_a_table_say_what_stands_at_the_head_of_a_report(tmp_path, above, stated):
+    rows = "specimen;temperature_C;frequency_Hz;E_MPa;phase_deg\n1;15;1;9000;20\n1;15;3;11000;18\n"
+    (tmp_path / "t.csv").write_text(f"{above}\n{rows}")
+    told = read_campaign([tmp_path / "t.csv"])[0].stated
+    assert {name: text for name, text in told.items() if text} == stated
+
+
+def test_days_that_differ_between_files_are_not_taken_for_one(tmp_path):
+    for n in (1, 2):
+        rows = (
+            f"specimen;temperature_C;frequency_Hz;E_MPa;phase_deg\n{n};15;1;900{n};20\n{n};15;3;1100{n};18\n"
+        )
+        (tmp_path / f"{n}.csv").write_text(f"Date;{n}.3.2026\nOperator;A. Tester\n{rows}")
+    told = read_campaign([tmp_path])[0].stated
+    assert "date" not in told and told["operator"] == "A. Tester"
+
+
+def test_a_refusal_of_a_workbook_names_the_file_once(tmp_path):
+    path = workbook(tmp_path / "t.xlsx", **{name: [["a", "b"], [1, 2]] for name in ("One", "Two")})
+    with pytest.raises(InputError) as refusal:
+        read_campaign([path])
+    assert str(refusal.value).count("t.xlsx") == 1 and "sheet One, sheet Two (" in str(refusal.value)
 
 
 @pytest.mark.parametrize("codec", ["utf-8", "utf-8-sig", "utf-16"])

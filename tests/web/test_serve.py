@@ -108,7 +108,7 @@ def test_what_a_file_says_of_its_tests_is_shown_and_all_its_specimens(client):
     table = [["AASHTO T 342 results"], ["Mix ID:", "SP-12.5"], names, ["", "", "S1", "S2", "S1", "S2"], *rows]
     text = "\n".join(";".join(map(str, row)) for row in table)
     content = dropped(client, ("t.csv", text.encode())).get_json()
-    assert (content["mix"], content["test_type"]) == ("SP-12.5", "tension-compression")
+    assert (content["stated"]["mix"], content["test_type"]) == ("SP-12.5", "tension-compression")
     shown = {one["name"]: (one["condition"], one["cells"]) for one in content["columns"]}
     assert shown["E* (ksi)"][0] == "S1, S2" and shown["Temp. (°F)"][1] == "40, 70"
     usual = json.loads(re.search(r"USUAL = (\[[^]]*\])", client.get(PAGE).text)[1])
@@ -175,7 +175,7 @@ def test_much_more_than_a_campaign_is_refused(client, app, tmp_path):
     for name, answer in answers.items():
         assert answer.status_code == 413
         assert name in answer.get_json()["error"]
-    assert app.config["DESKS"].at(TAB).files == []
+    assert app.config["DESKS"].desk(TAB).files == []
     (tmp_path / "t.csv").write_text("T (C),f (Hz),E (MPa),phi (deg)\n" + "4,10,12345,12\n" * 21_001)
     with pytest.raises(InputError, match="t.csv: more than 20000 rows"):
         read_tables([tmp_path / "t.csv"], Choices())

@@ -238,7 +238,7 @@ def compare(
     mixes : mapping or list of paths
         By the name of the mix what `diagnose` takes; of a list the names are those of files and folders.
     measured_in : str, optional
-        "bending" or "tension-compression"; else what the files say.
+        "bending", "tension-compression", "four-point bending" or "indirect tension"; else what the files say.
     law : str
         "2s2p1d", "huet-sayegh", "sigmoid" or "cam": the form of each mix's law.
     draws : Draws

@@ -425,7 +425,8 @@ def diagnose(
     measurements : path, folder, several of them, or DataFrame
         The tests, read as `read` says.
     measured_in : str, optional
-        "bending" or "tension-compression"; else what the files say, and bending of a DataFrame of one's own.
+        "bending", "tension-compression", "four-point bending" or "indirect tension"; else what the files say, and
+        bending of a DataFrame of one's own.
     geometry : mapping or path
         b_mm, B_mm, e_mm, h_mm, mass_kg, mobile_mass_kg of the specimens, or a table of them; of ready moduli only the
         form factor counts.

@@ -48,7 +48,7 @@ def read(
     columns : mapping, optional
         What a column holds where its name does not say it, {"E_GPa": "Steifigkeit"}.
     measured_in : str, optional
-        "bending" or "tension-compression"; else what the files say.
+        "bending", "tension-compression", "four-point bending" or "indirect tension"; else what the files say.
     mix : str, optional
         The only one to read of files with a column of mixes.
 

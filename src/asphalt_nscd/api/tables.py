@@ -13,7 +13,7 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.campaign import Campaign
-from asphalt_nscd.measurements.kinds import TEST_TYPES
+from asphalt_nscd.measurements.further_kinds import ALL_KINDS
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.frames import campaign_of
 
@@ -38,7 +38,7 @@ def campaign_in(
     columns : mapping of str to str, optional
         What a column holds where its name does not say it.
     measured_in : str, optional
-        "bending" or "tension-compression"; else what the files say.
+        "bending", "tension-compression", "four-point bending" or "indirect tension"; else what the files say.
     mix : str, optional
         The only one to read of files with a column of mixes.
 
@@ -52,9 +52,9 @@ def campaign_in(
     InputError
         For what holds no tests, or a test type that is not known.
     """
-    if measured_in not in (None, *TEST_TYPES):
+    if measured_in not in (None, *ALL_KINDS):
         raise InputError(
-            f"measured_in {measured_in!r} is not known; give one of {', '.join(TEST_TYPES)}, or none for "
+            f"measured_in {measured_in!r} is not known; give one of {', '.join(ALL_KINDS)}, or none for "
             "another test."
         )
     if isinstance(measurements, Campaign):

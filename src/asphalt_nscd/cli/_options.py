@@ -13,7 +13,7 @@ import click
 
 from asphalt_nscd.files.options import Option, hints_of, option, option_of, options_of
 from asphalt_nscd.files.ranges import Range
-from asphalt_nscd.measurements.kinds import TEST_TYPES
+from asphalt_nscd.measurements.further_kinds import ALL_KINDS
 
 TRAPEZOID = ("b_mm", "B_mm", "e_mm", "h_mm", "mass_kg", "mobile_mass_kg")
 CYLINDER = ("d_mm", "h_mm", "mass_kg", "mobile_mass_kg")
@@ -212,9 +212,9 @@ CYCLES = option(
     "Number of whole cycles used, at the end of a record; else those of the last 10 s.", None, low=1
 )
 MEASURED_IN = option(
-    "Test that gave the moduli, 2PB-TR or axial; else what the files say. Leave out for others (4PB-PR, IT-CY).",
+    "Test that gave the moduli (2PB, axial, 4PB, IT-CY); else what the files say. Leave out for others.",
     None,
-    choices=list(TEST_TYPES),
+    choices=list(ALL_KINDS),
 )
 ONLY_MIX = option("The only mix to read of tables with a column of mixes.", None)
 SHEET = option("The only sheet of a workbook to read; else all that hold tests.", None)

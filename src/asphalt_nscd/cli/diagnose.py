@@ -58,7 +58,9 @@ def command(
     if percent is not None and degrees is not None:
         known = replace(known, scatter=(percent, degrees))
     campaign = campaign_in(measurements, sheet, dict(columns), measured_in, only_mix)
-    heading = replace(heading, mix=heading.mix or campaign.mix)
+    heading = replace(
+        heading, **{name: text for name, text in campaign.stated.items() if not getattr(heading, name)}
+    )
     # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
     title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
     if has_no_phase(campaign):

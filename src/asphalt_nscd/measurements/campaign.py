@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -21,8 +21,9 @@ OFF_TARGET = 0.5  # K that T 378 lets the mean temperature of a test stray from 
 class Campaign:
     """Tests of a campaign in our columns, the files they came from, and sentences on how they were read.
 
-    `test_type` is one of `kinds.TEST_TYPES`, or UNKNOWN; `without_tests` has a sentence for each folder some of whose
-    files hold no test, and for each table some of whose tests lack a phase. `mix` is its name where a file says it.
+    `test_type` is one of `further_kinds.ALL_KINDS`, or UNKNOWN; `without_tests` has a sentence for each folder some of
+    whose files hold no test, and for each table some of whose tests lack a phase. `stated` is what files say for the
+    head of a report: mix, project, operator, date, standard.
     """
 
     table: Table
@@ -30,7 +31,7 @@ class Campaign:
     test_type: str = "bending"
     notes: tuple[str, ...] = field(default=())
     without_tests: tuple[str, ...] = ()
-    mix: str = ""
+    stated: Mapping[str, str] = field(default_factory=dict)
 
 
 def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> NDArray[np.float64]:

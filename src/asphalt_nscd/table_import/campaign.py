@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
@@ -91,7 +92,7 @@ def read_campaign(
     _require_named_specimens(paths, parts)
     parts = drop_repeated(parts, notes)
     without_tests += dict.fromkeys(part.read.without_phase for part in parts if part.read.without_phase)
-    called = _one_mix(parts)
+    stated = {"mix": _one_mix(parts)} | _stated({part.path for part in parts})
     forms = sorted({part.read.form for part in parts})
     if len(forms) > 1:
         raise InputError(
@@ -106,7 +107,7 @@ def read_campaign(
     )
     files = tuple(dict.fromkeys(part.path for part in parts))
     notes = [*_said(parts), *notes]
-    return Campaign(table, files, kind, tuple(notes), tuple(without_tests), called), forms[0]
+    return Campaign(table, files, kind, tuple(notes), tuple(without_tests), stated), forms[0]
 
 
 def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: list[str]) -> str:
@@ -119,11 +120,6 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
         notes.append("forces and displacements are taken as of two-point bending")
         return "bending"
     found = {kind for part in parts for kind in _schemes_in(part.path)}
-    if found == {UNKNOWN}:
-        notes.append(
-            "the file names four-point bending or indirect tension: no fault of another apparatus is sought"
-        )
-        return UNKNOWN
     if len(found) == 1:
         kind = found.pop()
         way = choice("say --measured-in", IN_THE_MENU)
@@ -136,14 +132,32 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
 
 
 def _schemes_in(path: Path) -> set[str]:
-    """Kinds of test, of `kinds.TEST_TYPES`, that the first lines of a file name."""
+    """Kinds of test, of `further_kinds.ALL_KINDS`, that the first lines of a file name."""
+    text = " ".join(cell for cells in _first_lines(path) for cell in cells)
+    return {kind for kind, pattern in WORDS["scheme"].items() if re.search(pattern, text, re.IGNORECASE)}
+
+
+def _stated(paths: set[Path]) -> dict[str, str]:
+    """What the first lines of files say for the head of a report, where all that say it agree."""
+    found: dict[str, set[str]] = {}
+    for cells in (cells for path in paths for cells in _first_lines(path)):
+        if standard := re.search(WORDS["head"]["standard"], " ".join(cells), re.IGNORECASE):
+            found.setdefault("standard", set()).add(standard[0])
+        filled = [cell for cell in cells if cell]
+        pair = re.split(r"\s*[:=]\s*", filled[0], maxsplit=1) if len(filled) == 1 else filled
+        for name in WORDS["head"] if len(pair) == 2 else ():
+            if re.fullmatch(WORDS["head"][name], pair[0].rstrip(" :="), re.IGNORECASE):
+                found.setdefault(name, set()).add(pair[1].removesuffix(" 00:00:00"))
+    return {name: texts.pop() for name, texts in found.items() if len(texts) == 1}
+
+
+def _first_lines(path: Path) -> list[list[str]]:
+    """Cells of the lines in which a title stands, of all sheets; none of a file that cannot be read."""
     try:
-        sheets = read_sheets(path)
+        return [cells for sheet in read_sheets(path) for _, cells in sheet.rows[:MOST_LINES]]
     # Why it cannot be read is said where it is read.
     except InputError:
-        return set()
-    text = " ".join(cell for sheet in sheets for _, cells in sheet.rows[:MOST_LINES] for cell in cells)
-    return {kind for kind, pattern in WORDS["scheme"].items() if re.search(pattern, text, re.IGNORECASE)}
+        return []
 
 
 def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> None:
@@ -227,8 +241,9 @@ def _of_sheets(path: Path, sheets: Sequence[Sheet], notes: list[str], wanted: _W
                 raise
             skipped.append(refused(f"sheet {one.name} of {path.name}", error, one.path))
     if not parts:
+        own = [replace(one, name=one.name.removesuffix(f" of {path.name}")) for one in skipped]
         raise NotTests(
-            f"{path}: no sheet holds tests; it has {listed(skipped)}; "
+            f"{path}: no sheet holds tests; it has {listed(own)}; "
             f"{common_mend(skipped) or 'give a table of moduli.'}"
         )
     if not all(part.block.means for part in parts):

@@ -22,7 +22,7 @@ from asphalt_nscd.files.templates import template
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.measurements.campaign import Campaign, isotherm_notes, nominal_temperatures
 from asphalt_nscd.measurements.geometry import read_geometry, read_shape
-from asphalt_nscd.measurements.kinds import FITTED_STEPS
+from asphalt_nscd.measurements.kinds import BENDING, FITTED_STEPS, UNKNOWN
 from asphalt_nscd.measurements.limits import LIMITS
 from asphalt_nscd.measurements.reduction import FORMS, KEYS, reduced_frame, require_enough
 from asphalt_nscd.measurements.shape import Shape
@@ -48,7 +48,7 @@ SMALL_SPHERES = Spheres(pd.Series({2.0: 600, 3.0: 200, 4.0: 90}), (0.06, 0.01, 0
 
 @dataclass(frozen=True)
 class StudyOptions:
-    """What the user says beside the table, None where nothing; `measured_in` is one of TEST_TYPES."""
+    """What the user says beside the table, None where nothing; `measured_in` is one of ALL_KINDS."""
 
     geometry: Mapping[str, float] | Path | None = None
     grading: Path | None = None
@@ -103,6 +103,7 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
         notes=[" ".join(note.split()) for note in notes],
         form=form,
         direct=direct,
+        measured_in="" if campaign.test_type in (BENDING, UNKNOWN) else campaign.test_type,
         small=options.small,
         seeds=seeds,
         temperatures=temperatures,

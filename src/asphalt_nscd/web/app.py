@@ -25,7 +25,7 @@ from werkzeug.exceptions import HTTPException
 
 from asphalt_nscd.api.laws import TITLES
 from asphalt_nscd.files.options import options_of
-from asphalt_nscd.measurements.kinds import TEST_TYPES
+from asphalt_nscd.measurements.further_kinds import ALL_KINDS
 from asphalt_nscd.reporting.settings import Heading
 from asphalt_nscd.table_import.campaign import TABLES
 from asphalt_nscd.table_import.quantities import MEASURED
@@ -89,7 +89,7 @@ class Desks:
         self.folder = Path(tempfile.mkdtemp(prefix="asphalt-nscd-"))
         self.desks: dict[str, Desk] = {}
 
-    def at(self, name: str, anew: bool = False) -> Desk:
+    def desk(self, name: str, anew: bool = False) -> Desk:
         """The desk of a name, an empty one if it is new or wanted `anew`; of too many the oldest idle one goes."""
         if anew and name in self.desks:
             self.desks.pop(name).close()
@@ -116,7 +116,7 @@ def create_app(token: str | None = None) -> Flask:
     app.config.update(TOKEN=token, DESKS=desks, MAX_CONTENT_LENGTH=MOST_BYTES, MAX_FORM_PARTS=MOST_FILES + 10)
 
     @app.before_request
-    def only_the_user() -> None:
+    def refuse_strangers() -> None:
         """No other machine, no other page in the browser, and nobody without the token."""
         # A name of a stranger's may be pointed at 127.0.0.1 (DNS rebinding); the Host header then holds that name.
         host = request.host.rpartition(":")[0] or request.host
@@ -170,7 +170,7 @@ def create_app(token: str | None = None) -> Flask:
             words=words,
             usual=USUAL,
             laws=TITLES,
-            kinds=TEST_TYPES,
+            kinds=ALL_KINDS,
             endings=", ".join(TABLES),
             heading=heading,
         )
@@ -178,64 +178,64 @@ def create_app(token: str | None = None) -> Flask:
     @app.get("/<token>/<desk>/state")
     def state(token: str, desk: str) -> Response:
         """What a page that was loaded again shows."""
-        at = desks.at(_named(desk))
-        job = None if at.job is None else _told(at.job)
-        return jsonify(reading=at.reading, choices=asdict(at.choices), job=job)
+        tab = desks.desk(_named(desk))
+        job = None if tab.job is None else _told(tab.job)
+        return jsonify(reading=tab.reading, choices=asdict(tab.choices), job=job)
 
     @app.post("/<token>/<desk>/files")
     def drop(token: str, desk: str) -> Response:
         """Take the files, and say how they were read."""
-        _idle(desks.at(_named(desk)))
+        _idle(desks.desk(_named(desk)))
         given = _given()
-        at = desks.at(desk, anew=True)
-        at.files = _saved(given, at.folder / "files")
-        return _read(at)
+        tab = desks.desk(desk, anew=True)
+        tab.files = _saved(given, tab.folder / "files")
+        return _read(tab)
 
     @app.post("/<token>/<desk>/read")
     def again(token: str, desk: str) -> Response:
         """Read the files again with what the user chose from the menus."""
-        at = _idle(desks.at(_named(desk)), files=True)
-        at.choices = _choices(request.get_json(silent=True))
-        return _read(at)
+        tab = _idle(desks.desk(_named(desk)), files=True)
+        tab.choices = _choices(request.get_json(silent=True))
+        return _read(tab)
 
     @app.post("/<token>/<desk>/diagnose")
     def start(token: str, desk: str) -> Response:
-        at = _idle(desks.at(_named(desk)), files=True)
-        at.choices = _choices(request.get_json(silent=True))
+        tab = _idle(desks.desk(_named(desk)), files=True)
+        tab.choices = _choices(request.get_json(silent=True))
         # An older result would stand beside the new one, or for it after a failure.
-        shutil.rmtree(at.output, ignore_errors=True)
-        return at.begin("diagnose", at.files, SECONDS_TO_DIAGNOSE)
+        shutil.rmtree(tab.output, ignore_errors=True)
+        return tab.begin("diagnose", tab.files, SECONDS_TO_DIAGNOSE)
 
     @app.post("/<token>/<desk>/compare")
     def compare(token: str, desk: str) -> Response:
         """Diagnose the files of another mix too, and set both beside each other."""
-        at = _idle(desks.at(_named(desk)), files=True)
-        shutil.rmtree(at.folder / "other", ignore_errors=True)
-        other = _saved(_given(), at.folder / "other")
-        return at.begin("compare", [*at.files, *other], 2.0 * SECONDS_TO_DIAGNOSE)
+        tab = _idle(desks.desk(_named(desk)), files=True)
+        shutil.rmtree(tab.folder / "other", ignore_errors=True)
+        other = _saved(_given(), tab.folder / "other")
+        return tab.begin("compare", [*tab.files, *other], 2.0 * SECONDS_TO_DIAGNOSE)
 
     @app.get("/<token>/<desk>/job")
     def job(token: str, desk: str) -> Response:
-        at = desks.at(_named(desk))
-        if at.job is None:
+        tab = desks.desk(_named(desk))
+        if tab.job is None:
             abort(404, "nothing was started")
-        return jsonify(**_told(at.job))
+        return jsonify(**_told(tab.job))
 
     @app.post("/<token>/<desk>/cancel")
     def cancel(token: str, desk: str) -> Response:
-        at = desks.at(_named(desk))
-        if at.job is not None:
-            at.job.stop()
+        tab = desks.desk(_named(desk))
+        if tab.job is not None:
+            tab.job.stop()
         return jsonify(state="cancelled")
 
     @app.get("/<token>/<desk>/results/<path:name>")
     def result(token: str, desk: str, name: str) -> Response:
-        at = desks.at(_named(desk))
+        tab = desks.desk(_named(desk))
         # Only names that the job has listed, so that no name leads out of the folder.
-        if at.job is None or at.job.state != "done" or name not in at.job.result["files"]:
+        if tab.job is None or tab.job.state != "done" or name not in tab.job.result["files"]:
             abort(404, "no such file")
         # One address for both: shown in the page's frame, or taken away.
-        return send_from_directory(at.output, name, as_attachment="download" in request.args)
+        return send_from_directory(tab.output, name, as_attachment="download" in request.args)
 
     return app
 
@@ -294,7 +294,7 @@ def _choices(content: Any) -> Choices:
         return Choices()
     kind, law = content.get("measured_in") or None, content.get("law") or "2s2p1d"
     columns, heading = (content.get(name) or {} for name in ("columns", "heading"))
-    if kind not in (None, *TEST_TYPES) or law not in TITLES or not set(heading) <= set(options_of(Heading)):
+    if kind not in (None, *ALL_KINDS) or law not in TITLES or not set(heading) <= set(options_of(Heading)):
         abort(400, "an unknown choice")
     texts = [text for pairs in (columns, heading) for pair in dict(pairs).items() for text in pair]
     if not all(isinstance(text, str) and len(text) < 200 for text in texts):

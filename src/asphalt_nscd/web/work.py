@@ -143,7 +143,7 @@ def read_tables(paths: Sequence[Path], choices: Choices) -> dict[str, Any]:
     return {
         "form": form,
         "test_type": campaign.test_type,
-        "mix": campaign.mix,
+        "stated": dict(campaign.stated),
         "notes": [_shorten_paths(note, paths) for note in campaign.notes],
         "tests": len(campaign.table.lines),
         "specimens": list(table["specimen"].unique()),

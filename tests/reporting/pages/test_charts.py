@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from xml.etree import ElementTree
 
@@ -81,8 +82,54 @@ def test_the_law_and_its_band_stand_among_the_tests_on_frequency_times_shift_fac
 
 
 def test_without_a_common_law_there_are_isotherms_only(results):
-    law = made(results, ladder=[])["law"]
+    found = made(results, ladder=[])
+    law = found["law"]
     assert law.title == "Isotherms" and "reduced" not in law.plots[0] and "no shift factors" in law.caption
+    # Of a decade and a bit the axis bears more than one number.
+    assert all(f">{n}</text>" in law.plots[1] for n in (0.1, 1, 10))
+    assert "reduced" not in found["specimens"].plots[1] and "the Black diagram." in found["specimens"].caption
+
+
+def test_a_free_master_curve_has_shift_factors_where_no_rung_names_it_and_tests_less_what_is_established(
+    results, tmp_path
+):
+    tests = pd.read_csv(results.causality()[0], dtype={"specimen": str})
+    delay = 3.0 * tests["frequency_Hz"] / 25.0
+    corrected = tests.assign(
+        nominal_temperature_C=tests["temperature_C"],
+        phase_deg=(tests["phase_deg"] - delay).where(tests["status"] != "left out"),
+        reduced_frequency_Hz=tests["frequency_Hz"] * np.where(tests["temperature_C"] == 4.0, 100.0, 1.0),
+        corrected_for="channel_delay",
+    )
+    write_table(tmp_path / "corrected.csv", corrected)
+    found = charts(
+        **results.diagnosis(
+            ladder=[],
+            reading=json.loads(results.diagnosis()["diagnosis"][0].read_text())["reading"]
+            | {"isotherms_C": [4.0, 21.0]},
+        ),
+        causality=results.causality(),
+        corrected=[tmp_path / "corrected.csv"],
+    )
+    law = found["law"]
+    assert law.title == "Master curve" and "no shift factors" not in law.caption
+    assert all(
+        "Tests less the channel delay" in found[name].caption for name in ("law", "specimens", "causality")
+    )
+    assert all(
+        "reduced frequency (Hz), at 21 °C" in plot for plot in (*law.plots, found["specimens"].plots[1])
+    )
+    titles, at, _ = told(law.plots[1])
+    place = dict(zip(titles, at))
+    cold, warm = (next(x for t, (x, _) in place.items() if f", {c} °C, 1 Hz" in t) for c in (4, 21))
+    one, ten = (next(x for t, (x, _) in place.items() if f", 21 °C, {f} Hz" in t) for f in (1, 10))
+    assert (cold - warm) / (ten - one) == pytest.approx(2.0, rel=0.01)
+    # 20 deg less 3 deg at 25 Hz lie below 20 deg less 0.12 deg at 1 Hz.
+    slow, fast = (
+        next(y for t, (_, y) in place.items() if f"specimen 2, 21 °C, {f} Hz" in t) for f in (1, 25)
+    )
+    assert fast > slow
+    assert any(", corrected |E*|" in t and "phase 17.0°" in t for t in titles)
 
 
 def test_cells_say_the_residual_and_have_its_colour(results):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
 from asphalt_nscd.files.words import three_digits
-from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
+from asphalt_nscd.measurements.kinds import TEST_TYPES
 
 
 class Sweep(NamedTuple):
@@ -122,8 +122,8 @@ class Cause(ABC):
         return True
 
     def possible_on_bench(self, observed: Observations) -> bool:
-        """Whether the apparatus can have the cause; True too if the bench is unknown and every bench can."""
-        if observed.test_type == UNKNOWN:  # only what every test can have
+        """Whether the apparatus can have the cause; True too if no cause is of this bench and every bench can."""
+        if observed.test_type not in TEST_TYPES:  # only what every test can have
             return set(TEST_TYPES) <= set(self.benches)
         return observed.test_type in self.benches
 

@@ -56,7 +56,7 @@ class Reading(TypedDict):
         tests lack a phase.
     """
 
-    test_type: Literal["bending", "tension-compression", "unknown"]
+    test_type: Literal["bending", "tension-compression", "four-point bending", "indirect tension", "unknown"]
     specimens: list[str]
     isotherms_C: list[float]
     frequencies_Hz: list[Positive]

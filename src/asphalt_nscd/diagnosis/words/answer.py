@@ -18,6 +18,7 @@ from asphalt_nscd.diagnosis.screening import levels
 from asphalt_nscd.diagnosis.words import facts, sentences, tables
 from asphalt_nscd.files.templates import items, template
 from asphalt_nscd.measurements.campaign import OFF_TARGET
+from asphalt_nscd.measurements.further_kinds import ALL_KINDS
 from asphalt_nscd.measurements.kinds import TEST_TYPES, UNKNOWN
 
 Content = Mapping[str, Any]
@@ -73,8 +74,8 @@ def _template() -> Template:
         "HALF": HALF,
         "STANDS_OUT": STANDS_OUT,
     }
-    names |= {"OFF_TARGET": OFF_TARGET, "UNKNOWN": UNKNOWN, "ORIGINS": ORIGINS}
-    names |= {"TESTS_OF": TEST_TYPES | {UNKNOWN: "tests of another kind, or of one that was not said"}}
+    names |= {"OFF_TARGET": OFF_TARGET, "UNKNOWN": UNKNOWN, "TEST_TYPES": TEST_TYPES, "ORIGINS": ORIGINS}
+    names |= {"TESTS_OF": ALL_KINDS | {UNKNOWN: "tests of another kind, or of one that was not said"}}
     return template("diagnosis/words/words.j2", vars(sentences), names)
 
 

@@ -41,7 +41,7 @@ def doubtful_tests(content: Content) -> list[Content]:
     return [one for one in tests if ITSELF in one["decided_by"] and one["status"] != LEFT_OUT]
 
 
-def by_isotherm(tests: Sequence[Content]) -> list[tuple[str, float, list[str], list[float]]]:
+def grouped_tests(tests: Sequence[Content]) -> list[tuple[str, float, list[str], list[float]]]:
     """Tests of one specimen and isotherm with the same reasons: specimen, degC, reasons and frequencies [Hz].
 
     Values of a quality column that differ are told from the least to the largest.
@@ -221,7 +221,7 @@ def fit_as_well(rungs: Sequence[Content], content: Content) -> bool:
     return any(rivals(rung, content) for rung in rungs)
 
 
-def off_at_highest(one: Content) -> str:
+def highest_departure(one: Content) -> str:
     """By how much all tests at the highest frequency are off, in words."""
     parts = []
     for name, key, unit in (("|E*|", "modulus_percent", "%"), ("the phase", "phase_deg", "deg")):
@@ -232,7 +232,7 @@ def off_at_highest(one: Content) -> str:
     return joined(parts) or "|E*| and phase are off"
 
 
-def only_of(trust: Content) -> str:
+def sole_specimen(trust: Content) -> str:
     """That only one specimen of several has tests that can be used, where this is so."""
     of = [name for name, count in trust["use_by_specimen"].items() if count]
     return f" (of {specimen_named(of[0])} only)" if len(of) == 1 < len(trust["use_by_specimen"]) else ""

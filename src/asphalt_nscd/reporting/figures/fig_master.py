@@ -13,8 +13,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from asphalt_nscd.diagnosis.written import conditions, read_diagnosis, read_residuals
+from asphalt_nscd.diagnosis.written import conditions, read_corrected, read_diagnosis, read_residuals
 from asphalt_nscd.files.csvinput import read_csv
+from asphalt_nscd.files.words import joined
 from asphalt_nscd.measurements.tables import only_file
 from asphalt_nscd.reporting.figures import numbers, panels, style
 
@@ -27,7 +28,7 @@ class Master:
 
     tests: specimen, isotherm_C, reduced_Hz, E_MPa, phase_deg, and filled and words for `panels.points`. mix: the same
     quantities of the mix with their 95 % bands, as reported.csv has them; law: of law.json, beside it. Where there is
-    no mix, isotherms of what was modelled.
+    no mix, isotherms of what was modelled. corrected: causes that were taken off the tests.
     """
 
     tests: pd.DataFrame
@@ -35,6 +36,7 @@ class Master:
     law: pd.DataFrame | None
     modelled: pd.DataFrame
     shift: dict[float, float]
+    corrected: tuple[str, ...] = ()
 
     @property
     def isotherms(self) -> list[float]:
@@ -49,7 +51,7 @@ class Master:
     def panel(self, axes: Axes, quantity: str) -> None:
         """Draw "E" or "phase" over reduced frequency: points, the mix with its band, and the law dashed."""
         column, scale, _ = panels.QUANTITIES[quantity]
-        looks = dict(zip(self.isotherms, style.series(len(self.isotherms)), strict=True))
+        looks = panels.isotherm_looks(self.isotherms)
         for isotherm, rows in self.tests.groupby("isotherm_C"):
             panels.points(axes, rows["reduced_Hz"], scale * rows[column.format("")], looks[isotherm], rows)
         if self.law is not None:
@@ -60,38 +62,66 @@ class Master:
             for isotherm, rows in self.modelled.groupby("isotherm_C"):
                 panels.line(axes, "reduced_Hz", quantity, rows, looks[isotherm][0], "_after")
         panels.quantity_axis(axes, quantity)
-        at = (
+        panels.reduced_axis(axes, self.axis)
+
+    @property
+    def points(self) -> str:
+        """What its points are."""
+        return f"tests less the {joined(self.corrected)}" if self.corrected else "tests as they were measured"
+
+    @property
+    def axis(self) -> str:
+        """What its frequencies are."""
+        return (
             f"reduced frequency (Hz), at {numbers.celsius(self.reference)}"
             if self.shift
             else "frequency (Hz)"
         )
-        style.reduced_axis(axes, at)
 
     def keys(self, measured: str) -> list[Line2D]:
-        """Entries of a legend: what was `measured`, and the line."""
+        """Entries of a legend: what was `measured`, what is hollow of it, and the line."""
         words = "modelled" if self.mix is None else "the mix, 95 % band"
         lines = [Line2D([], [], color=style.INK, lw=1.0, label=words)]
         if self.law is not None:
             lines.append(Line2D([], [], color=style.GREY, label="law of few parameters", **BESIDE))
-        return [panels.key(measured, (style.INK, "o"), filled="filled" in self.tests), *lines]
+        points = [panels.key(measured, (style.INK, "o"), filled="filled" in self.tests)]
+        if "filled" in self.tests and not self.tests["filled"].all():
+            points.append(panels.key("doubtful or left out", (style.INK, "o")))
+        return [*points, *lines]
 
 
 def master(
-    tests: pd.DataFrame, residuals: pd.DataFrame, content: Mapping[str, Any], curve: Sequence[Path] = ()
+    tests: pd.DataFrame,
+    residuals: pd.DataFrame,
+    content: Mapping[str, Any],
+    curve: Sequence[Path] = (),
+    corrected: Sequence[Path] = (),
 ) -> Master:
     """The master curve of tests (specimen, temperature_C, frequency_Hz, E_MPa, phase_deg) of a diagnosis.
 
-    `content` is that of diagnosis.json, `curve` may hold its master_curve.csv.
+    `content` is that of diagnosis.json, `curve` may hold its master_curve.csv, and `corrected` its corrected.csv, whose
+    rows are those of `tests`: what is established is then taken off them.
     """
     rung = next((one for one in content["ladder"] if one["log10_shift"]), None)
     shift = {float(t): value for t, value in rung["log10_shift"].items()} if rung else {}
+    taken_off: dict[str, None] = {}
+    if corrected:
+        after = read_corrected(corrected)
+        # The free master curve has a shift even where a law for each temperature fits as well.
+        ratio = np.log10(after["reduced_frequency_Hz"] / after["frequency_Hz"])
+        shift = ratio.groupby(after["nominal_temperature_C"]).median().to_dict()
+        causes = [
+            one.replace("_", " ") for both in after["corrected_for"] for one in both.split(" + ") if one
+        ]
+        taken_off = dict.fromkeys(causes)
+        tests = tests.assign(**{name: after[name].fillna(tests[name]) for name in ("E_MPa", "phase_deg")})
     stated = shift or content["reading"]["isotherms_C"]
     nominal = [float(at) for at in stated]
     placed = [_reduced(one, nominal, shift) for one in (tests, residuals)]
     modelled = conditions(placed[1].assign(temperature_C=placed[1]["isotherm_C"]), content["scatter"])
     modelled = _reduced(modelled, nominal, shift).sort_values("frequency_Hz")
     mix, law = _curves(curve) if shift and curve else (None, None)
-    return Master(placed[0], mix, law, modelled, shift)
+    return Master(placed[0], mix, law, modelled, shift, tuple(taken_off))
 
 
 def _reduced(tests: pd.DataFrame, nominal: list[float], shift: dict[float, float]) -> pd.DataFrame:
@@ -124,9 +154,9 @@ def draw(residuals: list[Path], diagnosis: list[Path], curve: Sequence[Path] = (
         made.panel(ax, quantity)
         style.letter(ax, panel, pad=3.0)
     if made.shift:
-        for at, look in zip(made.isotherms, style.series(len(made.isotherms)), strict=True):
+        for at, look in panels.isotherm_looks(made.isotherms).items():
             axes[2].plot(at, made.shift[at], color=look[0], marker=look[1], ls="")
         axes[2].set(xlabel="temperature (°C)", ylabel="log10 shift factor")
         style.letter(axes[2], "c", "shift factors", pad=3.0)
-    style.isotherm_legends(figure, made.keys(content["origin"]), made.isotherms)
+    panels.isotherm_legends(figure, made.keys(content["origin"]), made.isotherms)
     return figure

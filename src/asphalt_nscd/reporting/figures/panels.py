@@ -12,6 +12,7 @@ from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.collections import PatchCollection
 from matplotlib.colors import BoundaryNorm
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
@@ -60,6 +61,30 @@ def quantity_axis(axes: Axes, quantity: str) -> None:
     if quantity == "E":
         axes.set_yscale("log")
         style.plain_log_axis(axes.yaxis)
+
+
+def reduced_axis(axes: Axes, label: str) -> None:
+    """Make the frequency axis logarithmic, with 1, 2, 5, ... where decades alone would be a number or two."""
+    style.reduced_axis(axes, label)
+    low, high = axes.get_xlim()
+    if high < 100.0 * low:
+        style.plain_log_axis(axes.xaxis)
+
+
+def isotherm_looks(isotherms: Sequence[float]) -> dict[float, tuple[Any, str]]:
+    """Colour and marker of each isotherm [degC], dark to light in many hues, which a dark page's inversion keeps."""
+    shades = colormaps["cubehelix"](np.linspace(0.15, 0.7, max(len(isotherms), 2)))
+    return {at: (tuple(shades[n]), style.MARKERS[n % len(style.MARKERS)]) for n, at in enumerate(isotherms)}
+
+
+def isotherm_legends(figure: Figure, keys: Sequence[Line2D], isotherms: Sequence[float]) -> None:
+    """Above the axes: at the left what `keys` explain, at the right the point of each isotherm."""
+    points = [key(numbers.celsius(at), look, filled=True) for at, look in isotherm_looks(isotherms).items()]
+    tight = {"borderpad": 0.1, "labelspacing": 0.3, "columnspacing": 0.8}
+    figure.legend(handles=keys, loc="outside upper left", **tight)
+    figure.legend(
+        handles=points, loc="outside upper right", ncols=-(-len(points) // 5), handlelength=1.0, **tight
+    )
 
 
 def key(words: str, look: tuple[Any, str], filled: bool = False) -> Line2D:

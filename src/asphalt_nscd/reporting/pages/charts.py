@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -39,7 +39,6 @@ CLEAR = 2.0  # standard errors, below which a difference says little
 HINT = (
     "Point at a test, tap it, or step through the tests with the arrow keys; Home, End and Escape work too."
 )
-POINTS = "test; hollow: doubtful or left out"
 BURGERS = "a Burgers law fitted to each temperature by itself"
 NONE = "No isotherm has the four tests needed to compare modulus and phase."
 
@@ -60,20 +59,23 @@ def charts(
     causality: Sequence[Path],
     diagnosis: Sequence[Path],
     curve: Sequence[Path] = (),
+    corrected: Sequence[Path] = (),
 ) -> dict[str, Chart]:
     """By name: "law" (master curve), "specimens" (Black diagram), "causality" and "residuals" (maps)."""
     content, used = read_diagnosis(diagnosis), read_residuals(residuals)
     tests = every_test(causality, content)
-    tests = tests.assign(words=[_words(row) for row in tests.to_dict("records")])
     stated = content["reading"]["isotherms_C"]
     used = used.assign(isotherm_C=panels.isotherm_of(used["temperature_C"], stated))
     means = conditions(used.assign(temperature_C=used["isotherm_C"]), content["scatter"])
-    master = fig_master.master(tests, used, content, curve)
+    master = fig_master.master(tests, used, content, curve, corrected)
+    after = master.tests[["E_MPa", "phase_deg"]].to_numpy()
+    words = [_words(row, own) for row, own in zip(tests.to_dict("records"), after, strict=True)]
+    master = replace(master, tests=master.tests.assign(words=words))
     before = "the first simulation of the study" if "campaign" in content["numerics"] else BURGERS
     made = [
         _law(master),
-        _specimens(master.tests, means),
-        _causality(tests, content["scatter"]["phase_deg"]),
+        _specimens(master, means),
+        _causality(master, content["scatter"]["phase_deg"]),
         _residuals(used, means, content["scatter"], before),
     ]
     return {chart.name: chart for chart in made}
@@ -113,7 +115,7 @@ def _curve(frames: dict[str, pd.DataFrame], label: str, quantity: str) -> str:
             "label": name,
         }
         panels.line(axes, "frequency_Hz", quantity, rows, colour, **look)
-    style.reduced_axis(axes, label)
+    panels.reduced_axis(axes, label)
     panels.quantity_axis(axes, quantity)
     _legend(figure, axes.get_legend_handles_labels()[0])
     return inline(figure, f"{panels.QUANTITIES[quantity][2]} of {counted(len(frames), 'curve')}")
@@ -132,9 +134,9 @@ def _law(master: fig_master.Master) -> Chart:
     for quantity, name in (("E", "|E*|"), ("phase", "phase angle")):
         figure, axes = page_figure(WIDTH, HEIGHT)
         master.panel(axes, quantity)
-        style.isotherm_legends(figure, master.keys(POINTS), master.isotherms)
+        panels.isotherm_legends(figure, master.keys("test"), master.isotherms)
         plots.append(inline(figure, f"{name}, {counted(len(master.tests), 'test')}"))
-    caption = "Tests as they were measured, before any correction."
+    caption = f"{capital(master.points)}."
     if master.mix is not None:
         caption += (
             " The mix: without established causes, the mean with possible ones and without; reported.csv has its"
@@ -148,40 +150,46 @@ def _law(master: fig_master.Master) -> Chart:
 
 
 @style.journal
-def _specimens(tests: pd.DataFrame, means: pd.DataFrame) -> Chart:
-    names, of_specimens = list(tests["specimen"].unique()), tests.assign(group=tests["specimen"])
+def _specimens(master: fig_master.Master, means: pd.DataFrame) -> Chart:
+    tests, mix = master.tests.assign(group=master.tests["specimen"]), master.mix
+    names = list(tests["specimen"].unique())
     looks = dict(zip(names, style.kinds(len(names)), strict=True))
+
+    def black(axes: Any) -> None:
+        fig_black.black(axes, tests, means, looks, fig_black.AFTER if mix is None else {})
+        if mix is not None:
+            axes.plot(mix["phase_deg"], mix["E_MPa"] * 1e-3, color=style.INK, lw=1.0, zorder=2)
+
     plots = []
     for title, draw in (
-        (
-            "Black diagram",
-            lambda axes: fig_black.black(axes, of_specimens, means, looks, fig_black.AFTER),
-        ),
-        ("|E*|", lambda axes: _draw_specimens(axes, tests, looks)),
+        ("Black diagram", black),
+        ("|E*|", lambda axes: _draw_specimens(axes, master, looks)),
     ):
         figure, axes = page_figure(WIDTH, HEIGHT)
         draw(axes)
         _legend(figure, [panels.key(name, look, filled=True) for name, look in looks.items()])
         plots.append(inline(figure, f"{title}, {counted(len(tests), 'test')}"))
-    return Chart(
-        "specimens",
-        "Specimens: Black diagram and master curve",
-        "Tests of one material should lie on one curve. Hollow points: not simply used. Lines in the Black diagram: "
-        "modelled with all named causes, an isotherm each.",
-        plots,
+    where = "both diagrams" if master.shift else "the Black diagram"
+    line = "modelled with all named causes, an isotherm each" if mix is None else "the mix"
+    caption = (
+        f"{capital(master.points)}. Those of one material should lie on one curve in {where}. Hollow points: not "
+        f"simply used. Line in the Black diagram: {line}."
     )
+    other = "master curve" if master.shift else "isotherms"
+    return Chart("specimens", f"Specimens: Black diagram and {other}", caption, plots)
 
 
-def _draw_specimens(axes: Any, tests: pd.DataFrame, looks: dict[str, tuple[Any, str]]) -> None:
-    for name, rows in tests.groupby("specimen"):
+def _draw_specimens(axes: Any, master: fig_master.Master, looks: dict[str, tuple[Any, str]]) -> None:
+    for name, rows in master.tests.groupby("specimen"):
         panels.points(axes, rows["reduced_Hz"], rows["E_MPa"] * 1e-3, looks[str(name)], rows)
-    style.reduced_axis(axes, "reduced frequency (Hz)")
+    panels.reduced_axis(axes, master.axis)
     panels.quantity_axis(axes, "E")
 
 
 @style.journal
-def _causality(tests: pd.DataFrame, scatter: float) -> Chart:
+def _causality(master: fig_master.Master, scatter: float) -> Chart:
     """By specimen; `scatter` is that of the phase of one test, degrees."""
+    tests = master.tests
     error = np.hypot(tests["std_error_deg"], scatter)
     excess = (tests["phase_deg"] - tests["phase_required_deg"]) / error
     tests = tests.assign(value=excess).dropna(subset="value")
@@ -200,13 +208,12 @@ def _causality(tests: pd.DataFrame, scatter: float) -> Chart:
         axes.set_title(capital(specimen_named(str(name))), loc="left", fontsize=9.0)
         plots.append(inline(figure, f"{specimen_named(str(name))}, {counted(len(worst), 'test')}"))
     caption = (
-        "In standard errors, those of one test and of the required phase, which is little known at the ends of an "
-        "isotherm: beyond 3 it is hardly chance; point at a cell for the degrees. The required phase is computed from "
-        "|E*| alone, and no delay or offset is taken off. The list of doubtful tests uses the phases at the other "
-        "frequencies too, so its numbers differ. Cross: left out. Ring: doubtful or held back. Triangle: a quality "
-        "limit is exceeded."
+        f"{capital(master.points)}, in standard errors, those of one test and of the required phase, which is little "
+        "known at the ends of an isotherm: beyond 3 it is hardly chance; point at a cell for the degrees. The required "
+        "phase is computed from |E*| alone. The list of doubtful tests uses the phases at the other frequencies too, "
+        "so its numbers differ. Cross: left out. Ring: doubtful or held back. Triangle: a quality limit is exceeded."
     )
-    title = "Phase measured less the phase that |E*| requires, over its standard error"
+    title = "Phase less the phase that |E*| requires, over its standard error"
     return Chart("causality", title, caption if plots else NONE, plots)
 
 
@@ -248,18 +255,24 @@ def _condition(row: Mapping[str, Any], tests: pd.DataFrame, shown: tuple[str, st
     )
 
 
-def _words(row: Mapping[str, Any]) -> str:
-    modulus, phase = three_digits(float(row["E_MPa"])), minus(f"{row['phase_deg']:.1f}")
+def _words(row: Mapping[str, Any], corrected: Sequence[float]) -> str:
+    """What a test says; `corrected` are its |E*| [MPa] and phase [deg] less what is established."""
     words = (
         f"{specimen_named(str(row['specimen']))}, {celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: "
-        f"|E*| {modulus} MPa, phase {phase}°"
+        f"{_modulus(row['E_MPa'], row['phase_deg'])}"
     )
+    if (after := _modulus(*corrected)) not in words:
+        words += f", corrected {after}"
     if pd.notna(row["phase_required_deg"]):
         off = _signed(row["phase_deg"] - row["phase_required_deg"])
         words += f"; {off}° from what |E*| alone requires (standard error {row['std_error_deg']:.1f}°)"
     if row["reasons"]:
         words += f"; {row['status']}: {row['reasons']}"
     return said((row["specimen"], row["isotherm_C"], row["frequency_Hz"]), words)
+
+
+def _modulus(modulus: float, phase: float) -> str:
+    return f"|E*| {three_digits(float(modulus))} MPa, phase {minus(f'{phase:.1f}')}°"
 
 
 def _signed(value: float) -> str:

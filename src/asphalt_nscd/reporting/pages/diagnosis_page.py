@@ -22,7 +22,13 @@ from asphalt_nscd.reporting.pages.charts import charts
 from asphalt_nscd.reporting.pages.style import filled
 from asphalt_nscd.reporting.pages.way import QUANTITIES, left_by_the_last, read_ladder
 
-MADE_OF = ("diagnosis.json", "residuals.csv", "causality.csv", "master_curve.csv")
+MADE_OF = {
+    "diagnosis": "diagnosis.json",
+    "residuals": "residuals.csv",
+    "causality": "causality.csv",
+    "curve": "master_curve.csv",
+    "corrected": "corrected.csv",
+}
 FILES = {  # that may lie beside the page, and what they hold
     "report.pdf": "pages to hand on",
     "corrected.xlsx": "the tables in one workbook",
@@ -55,8 +61,8 @@ TABLE4 = [f"mre_{q}_{k}_percent" for q in ("E", "phase") for k in ("published", 
 def write_page(folder: Path, title: str) -> Path:
     """Write diagnosis.html from the files of a diagnosis; it links those that are there."""
     links = {name: words for name, words in FILES.items() if (folder / name).is_file()}
-    diagnosis, residuals, causality, curve = ([folder / name] for name in MADE_OF)
-    content = render(sections(diagnosis, residuals, causality, curve=curve), title, links)
+    made_of = {kind: [folder / name] for kind, name in MADE_OF.items()}
+    content = render(sections(**made_of), title, links)
     with atomic_path(folder / PAGE) as path:
         path.write_text(content, encoding="utf-8")
     return folder / PAGE
@@ -74,10 +80,11 @@ def sections(
     table4: Sequence[Path] = (),
     ladder: Sequence[Path] = (),
     curve: Sequence[Path] = (),
+    corrected: Sequence[Path] = (),
 ) -> dict[str, Any]:
     """What the page says, for its template: text, rows of text, and plots that name their tests.
 
-    `table4` and `ladder` are tables of a study; `curve` is master_curve.csv.
+    `table4` and `ladder` are tables of a study; `curve` is master_curve.csv and `corrected` corrected.csv.
     """
     content = read_diagnosis(diagnosis)
     rungs, isotherms = content["ladder"], content["reading"]["isotherms_C"]
@@ -85,7 +92,7 @@ def sections(
         "diagnosis": content,
         "words": words(content, ladder),
         "tables": tables(content),
-        "charts": charts(residuals, causality, diagnosis, curve),
+        "charts": charts(residuals, causality, diagnosis, curve, corrected),
         # Table 4 is of the paper's mix: beside measurements of another it says nothing.
         "table4": _table4(table4) if "reconstructed" in content["origin"] and table4 else [],
         "way": _way(ladder) if ladder else None,

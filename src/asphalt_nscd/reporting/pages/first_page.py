@@ -96,7 +96,7 @@ def first_page(
         },
         "left_out": left_out,
         "held_out": [] if left_out else [held_out(way, ends) for ends in (False, True)],
-        "elsewhere": _on_other_data([path for path in beside if path.stem == "ensemble"]),
+        "elsewhere": _ensemble([path for path in beside if path.stem == "ensemble"]),
         "verdicts": dict(_frame(audit, "audit")["verdict"].value_counts()) if audit else {},
         "pictures": [b64encode(path.read_bytes()).decode() for path in pictures],
     }
@@ -132,7 +132,7 @@ def _left_out(way: pd.DataFrame, rivals: Sequence[Path]) -> list[tuple[str, ...]
     return [(name, *(three_digits(error[q]) for q in QUANTITIES)) for name, error in rows]
 
 
-def _on_other_data(ensemble: Sequence[Path]) -> dict[str, str] | None:
+def _ensemble(ensemble: Sequence[Path]) -> dict[str, str] | None:
     """Errors of one law and of the Burgers laws on data of which the paper's laws are the fit."""
     if not ensemble:
         return None

@@ -16,16 +16,16 @@ from fpdf.fonts import FontFace
 from asphalt_nscd.diagnosis.content.doubts import DOUBTFUL, HELD_BACK, LEFT_OUT
 from asphalt_nscd.diagnosis.record.reported import R_84, TESTS
 from asphalt_nscd.diagnosis.words.answer import Words
-from asphalt_nscd.diagnosis.words.facts import by_isotherm
+from asphalt_nscd.diagnosis.words.facts import grouped_tests
 from asphalt_nscd.diagnosis.words.sentences import band
 from asphalt_nscd.diagnosis.written import read_diagnosis, read_residuals
 from asphalt_nscd.files.store import atomic_path
 from asphalt_nscd.files.words import capital, joined, numbers
-from asphalt_nscd.measurements.kinds import TEST_TYPES
+from asphalt_nscd.measurements.further_kinds import ALL_KINDS
 from asphalt_nscd.reporting.figures import fig_master, panels, style
 from asphalt_nscd.reporting.figures.numbers import celsius
 from asphalt_nscd.reporting.figures.save import figure_bytes
-from asphalt_nscd.reporting.pages.charts import POINTS, every_test
+from asphalt_nscd.reporting.pages.charts import every_test
 from asphalt_nscd.reporting.pages.diagnosis_page import law
 from asphalt_nscd.reporting.pages.style import typeset
 from asphalt_nscd.reporting.settings import Heading
@@ -116,7 +116,7 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     pdf = _Report(heading.mix or title, by)
     pdf.add_page()
     pdf.heading("Complex modulus of an asphalt mix", 15.0)
-    pdf.rows(_about(content, heading), (1.0, 3.0), first_row_as_headings=False)
+    pdf.rows(_tested(content, heading), (1.0, 3.0), first_row_as_headings=False)
     pdf.heading("Result")
     pdf.set_font(FONT, "B", 10.5)
     pdf.text_block(typeset(Words(content)("value")[0]))
@@ -143,10 +143,10 @@ def write_handout(folder: Path, title: str, heading: Heading = Heading()) -> Pat
     return folder / PDF
 
 
-def _about(content: Mapping[str, Any], heading: Heading) -> list[tuple[str, str]]:
+def _tested(content: Mapping[str, Any], heading: Heading) -> list[tuple[str, str]]:
     """Names and values of what was tested, by whom and how; what is not stated is left out."""
     reading, voids = content["reading"], content["scatter"]["air_voids"]
-    kind = TEST_TYPES.get(reading["test_type"], "not stated")
+    kind = ALL_KINDS.get(reading["test_type"], "not stated")
     said = {name: getattr(heading, name) for name in ("project", "mix", "operator", "date", "standard")}
     temperatures = ", ".join(f"{at:g}" for at in reading["isotherms_C"])
     tested = {
@@ -167,7 +167,7 @@ def _resting_on(trust: Mapping[str, Any]) -> str:
 
 def _explained(master: fig_master.Master) -> str:
     """What lines, band and points are."""
-    mix = "certain faults are taken off, possible ones by their probability. Points: tests as measured."
+    mix = f"certain faults are taken off, possible ones by their probability. Points: {master.points}."
     if master.mix is None:
         return (
             f"In brackets: 95 % intervals. Values: the mix; {mix} Lines: modelled, one for each temperature."
@@ -179,7 +179,7 @@ def _explained(master: fig_master.Master) -> str:
 def _master(folder: Path, content: Mapping[str, Any]) -> fig_master.Master:
     """Every test and the curves."""
     tests, used = every_test([folder / "causality.csv"], content), read_residuals([folder / "residuals.csv"])
-    return fig_master.master(tests, used, content, [folder / "master_curve.csv"])
+    return fig_master.master(tests, used, content, [folder / "master_curve.csv"], [folder / "corrected.csv"])
 
 
 @style.journal
@@ -189,7 +189,7 @@ def _pictures(master: fig_master.Master) -> list[Any]:
     for quantity in panels.QUANTITIES:
         figure, axes = style.new_figure(86.0, 74.0)
         master.panel(axes, quantity)
-        style.isotherm_legends(figure, master.keys(POINTS), master.isotherms)
+        panels.isotherm_legends(figure, master.keys("test"), master.isotherms)
         figures.append(figure)
     return figures
 
@@ -232,7 +232,7 @@ def _left_out(pdf: _Report, content: Mapping[str, Any]) -> None:
     for status in (LEFT_OUT, HELD_BACK, DOUBTFUL):
         own = [one for one in content["suspect_tests"] if one["status"] == status]
         of_isotherm: dict[tuple[Any, ...], list[str]] = {}
-        for specimen, at, reasons, hertz in by_isotherm(own):
+        for specimen, at, reasons, hertz in grouped_tests(own):
             of_isotherm.setdefault((at, band(hertz), "; ".join(reasons)), []).append(specimen)
         for (at, hertz, why), specimens in of_isotherm.items():
             alike.setdefault((joined(specimens), hertz, status, why), []).append(at)

@@ -33,13 +33,13 @@ def _chart(tests: pd.DataFrame, curve: pd.DataFrame) -> Chart:
     figure, axes = page_figure(WIDTH, HEIGHT)
     panels.line(axes, "frequency_Hz", "E", curve, style.INK)
     isotherms = sorted(tests["isotherm_C"].unique())
-    for at, look in zip(isotherms, style.series(len(isotherms)), strict=True):
+    for at, look in panels.isotherm_looks(isotherms).items():
         own = tests[tests["isotherm_C"] == at]
         words = [_words(row) for row in own.to_dict("records")]
         panels.points(axes, own["reduced_frequency_Hz"], own["E_MPa"] * 1e-3, look, own.assign(words=words))
-    style.reduced_axis(axes, f"reduced frequency (Hz), at {celsius(curve['temperature_C'].iloc[0])}")
+    panels.reduced_axis(axes, f"reduced frequency (Hz), at {celsius(curve['temperature_C'].iloc[0])}")
     panels.quantity_axis(axes, "E")
-    style.isotherm_legends(figure, [panels.key("test", (style.INK, "o"))], isotherms)
+    panels.isotherm_legends(figure, [panels.key("test", (style.INK, "o"))], isotherms)
     caption = "Points: tests. Line and band: the mix, 95 %."
     return Chart("stiffness", "Master curve of |E*|", caption, [inline(figure, f"|E*|, {len(tests)} tests")])
 
