@@ -141,6 +141,14 @@ def test_repeated_test_is_taken_instead_of_the_first_and_said(tmp_path, names):
     assert said(campaign, f"{names[1]}.csv is taken instead of {names[0]}.csv")
 
 
+def test_a_repetition_that_the_name_of_its_file_alone_tells_is_taken(tmp_path):
+    campaign = exports(
+        tmp_path, **{"A_4C_repeated": export("A", 4, 1.2), "A_4C": export("A", 4)}, c=export("A", 20)
+    )
+    assert columns(campaign, "E_MPa") == [[10440, 9120, 7100, 6000]]
+    assert said(campaign, "A_4C_repeated.csv is taken instead of A_4C.csv")
+
+
 def test_what_reduce_wrote_is_taken_as_it_is(tmp_path):
     rows = [f"A,{t},{f},{9000.123456789012 - 100 * t + f},20\n" for t in (0, 10) for f in (1, 10)]
     header = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\n"

@@ -12,7 +12,8 @@ _TEMPERATURE = re.compile(  # not the grade of a binder, `PG64-28C`
     r"\s*(?:[°º]\s*|deg\s*)?([CF])(?![A-Za-z0-9])"
 )
 _REPEATED = re.compile(
-    r"[-_ ]*\b(?:repeat(?:ed)?|rerun|re-?test(?:ed)?|redo(?:ne)?)\b[-_ \d]*$", re.IGNORECASE
+    r"[-_ ]*(?<![^\W_])(?:repeat(?:ed)?|rerun|re-?test(?:ed)?|redo(?:ne)?)(?![^\W\d_])[-_ \d]*$",
+    re.IGNORECASE,
 )
 _SAME = 1.0  # K between a temperature in a name and the target it means
 
