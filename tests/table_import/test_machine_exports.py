@@ -140,6 +140,10 @@ def test_the_kind_of_test_is_told_by_its_scheme_and_never_assumed(tmp_path, titl
             "Ensayo;AASHTO T 378\nMezcla;AC16\nObra;A-7",
             {"standard": "AASHTO T 378", "mix": "AC16", "project": "A-7"},
         ),
+        (
+            "Specimen dimensions;100 x 150 mm\nStrain level: 50 µm/m",
+            {"dimensions": "100 x 150 mm", "strain": "50 µm/m"},
+        ),
         ("Date;Operator;Machine\nx;y;z", {}),
     ],
 )
@@ -148,6 +152,12 @@ def test_lines_above_a_table_say_what_stands_at_the_head_of_a_report(tmp_path, a
     (tmp_path / "t.csv").write_text(f"{above}\n{rows}")
     told = read_campaign([tmp_path / "t.csv"])[0].stated
     assert {name: text for name, text in told.items() if text} == stated
+
+
+def test_strains_that_are_recorded_stand_there_too(tmp_path):
+    rows = "specimen,T (°C),f (Hz),E (MPa),phi (°),microstrain\n1,15,1,9000,20,78\n1,15,3,11000,18,104\n"
+    (tmp_path / "t.csv").write_text(rows)
+    assert read_campaign([tmp_path / "t.csv"])[0].stated["strain"] == "78 to 104 microstrain, as recorded"
 
 
 def test_days_that_differ_between_files_are_not_taken_for_one(tmp_path):

@@ -101,6 +101,10 @@ def read_campaign(
     kind = test_type or _told_kind(paths, parts, forms[0], notes)
     table = _measured(_joined(paths, parts, notes), notes)
     _require_unit(paths, parts, table)
+    strains = table.numbers_or_nan("microstrain")
+    if (known := strains[np.isfinite(strains)]).size:
+        ends = dict.fromkeys(f"{end:.4g}" for end in (known.min(), known.max()))
+        stated["strain"] = f"{' to '.join(ends)} microstrain, as recorded"
     specimens = list(dict.fromkeys(table.text("specimen")))
     notes.append(
         f"{counted(len(specimens), 'specimen')}: {', '.join(specimens[:12])}{', ...' if len(specimens) > 12 else ''}"

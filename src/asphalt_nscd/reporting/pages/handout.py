@@ -147,7 +147,6 @@ def _tested(content: Mapping[str, Any], heading: Heading) -> list[tuple[str, str
     """Names and values of what was tested, by whom and how; what is not stated is left out."""
     reading, voids = content["reading"], content["scatter"]["air_voids"]
     kind = ALL_KINDS.get(reading["test_type"], "not stated")
-    said = {name: getattr(heading, name) for name in ("project", "mix", "operator", "date", "standard")}
     temperatures = ", ".join(f"{at:g}" for at in reading["isotherms_C"])
     tested = {
         "kind of test": kind[:1].upper() + kind[1:],
@@ -156,7 +155,7 @@ def _tested(content: Mapping[str, Any], heading: Heading) -> list[tuple[str, str
         "temperatures": f"{temperatures} degC",
         "tests": str(content["tests"] + content["trust"]["not_used"]),
     }
-    return [(name.capitalize(), text) for name, text in (said | tested).items() if text]
+    return [(name.capitalize(), text) for name, text in (vars(heading) | tested).items() if text]
 
 
 def _resting_on(trust: Mapping[str, Any]) -> str:
