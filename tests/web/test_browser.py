@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import base64
 import cmath
+import io
 import math
 import os
+import re
 import threading
 import time
 import urllib.request
@@ -14,12 +16,13 @@ from pathlib import Path
 import openpyxl
 import pytest
 from browser.chromium import Page, find
+from browser.served import connect, drop, sized, until
+from pypdf import PdfReader
 
 pytest.importorskip("flask")
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(find() is None, reason="no Chromium on this machine")]
 
 EVIL = "<img src=x onerror=\"document.title='owned'\">"
-SECONDS = 900.0  # of a machine with other work
 
 
 @pytest.fixture
@@ -39,22 +42,21 @@ def address():
 @pytest.fixture
 def page():
     with Page(find()) as opened:
-        whole = {"latency": 0, "downloadThroughput": -1, "uploadThroughput": -1}
-        opened.call("Network.emulateNetworkConditions", offline=False, **whole)
+        connect(opened)
         yield opened
 
 
-def workbook(path):
-    """A row for each test; the name of the column with moduli says nothing of them, and cells hold HTML."""
+def workbook(path, name_of_moduli="Result [GPa]", stiffer=1.0):
+    """A row for each test; the name of the column with moduli may say nothing of them, and cells hold HTML."""
     book = openpyxl.Workbook()
     sheet = book.active
     sheet.append([EVIL])
-    sheet.append(["Specimen", "Temp. (°C)", "Freq. (Hz)", "Result [GPa]", "Phase (°)", EVIL])
+    sheet.append(["Specimen", "Temp. (°C)", "Freq. (Hz)", name_of_moduli, "Phase (°)", EVIL])
     for name, scale in (("A", 1.0), ("B", 1.03), ("C", 0.98)):
         for t in (4.0, 12.0, 20.0, 35.0):
             for f in (0.1, 1.0, 5.0, 10.0, 25.0):
                 reduced = 1j * 6.28 * f * 0.15 * 10 ** (-9.0 * (t - 15.0) / (110.0 + t - 15.0))
-                star = scale * (0.06 + 33.0 / (1.0 + 2.2 * reduced**-0.21 + reduced**-0.6))
+                star = stiffer * scale * (0.06 + 33.0 / (1.0 + 2.2 * reduced**-0.21 + reduced**-0.6))
                 phase = math.degrees(cmath.phase(star)) + 5.0 * (scale - 1.0)
                 sheet.append([name, t, f, round(abs(star), 4), round(phase, 2), EVIL])
     book.save(path)
@@ -74,31 +76,6 @@ def test_moduli_without_a_phase_give_a_curve(page, address, tmp_path):
     until(page, "!document.getElementById('result').hidden")
     assert page.evaluate("document.getElementById('value').textContent").endswith("), no phase")
     look(page, "no-phase", 390, dark=True)
-
-
-def until(page, condition):
-    end = time.monotonic() + SECONDS
-    while not page.evaluate(condition):
-        assert time.monotonic() < end, (
-            f"never: {condition}; {page.evaluate('document.body.innerText')[:1500]}"
-        )
-        time.sleep(0.3)
-
-
-def drop(page, *paths, field="#files"):
-    page.call("DOM.enable")
-    root = page.call("DOM.getDocument")["root"]["nodeId"]
-    node = page.call("DOM.querySelector", nodeId=root, selector=field)["nodeId"]
-    page.call("DOM.setFileInputFiles", nodeId=node, files=[str(path) for path in paths])
-
-
-def sized(page, width, dark):
-    """A window of this width, in the light or in the dark."""
-    page.call(
-        "Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600
-    )
-    scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
-    page.call("Emulation.setEmulatedMedia", features=scheme)
 
 
 def look(page, name, width, dark):
@@ -166,6 +143,47 @@ def test_words_of_a_layout_are_said_in_menus(page, address, tmp_path):
     assert "24 tests of 2 specimens (A, B)" in page.evaluate("document.getElementById('what').textContent")
 
 
+def test_two_tabs_diagnose_at_once_and_keep_their_own_answers(page, address, tmp_path):
+    tabs = {}
+    for name, stiffer in (("soft", 1.0), ("stiff", 1.5)):
+        if tabs:
+            page._session = None  # to open a second tab of the same browser
+            page._attach(page.call("Target.createTarget", url="about:blank")["targetId"])
+            connect(page)
+        tabs[name] = page._session
+        page.open(address, 1280)
+        drop(page, workbook(tmp_path / f"{name}.xlsx", "|E*| [GPa]", stiffer))
+        until(page, "document.getElementById('go').offsetParent !== null")
+    for page._session in tabs.values():
+        page.evaluate("document.getElementById('go').click()")
+    states = []
+    for page._session in tabs.values():
+        states.append(page.evaluate("fetch('job').then(answer => answer.json()).then(job => job.state)"))
+    assert states == ["running", "running"]
+    values = {}
+    for name, page._session in tabs.items():
+        until(page, "!document.getElementById('result').hidden")
+        page.load("Page.reload")
+        until(page, "document.getElementById('result')?.hidden === false")
+        assert f"in {name}.xlsx" in page.evaluate("document.getElementById('what').textContent")
+        shown = page.evaluate("document.getElementById('value').textContent")
+        values[name] = float(re.search(r"Hz: (\d+) MPa", shown)[1])
+        assert (
+            f"tests from {name}.xlsx"
+            in PdfReader(io.BytesIO(taken(page, "report.pdf"))).pages[0].extract_text()
+        )
+    assert values["stiff"] == pytest.approx(1.5 * values["soft"], rel=0.03)
+
+
+def taken(page, name):
+    """A file that the page offers."""
+    (link,) = page.evaluate(
+        f"[...document.querySelectorAll('#take a')].map(a => a.href).filter(a => a.includes('{name}'))"
+    )
+    with urllib.request.urlopen(link) as answer:
+        return answer.read()
+
+
 def test_from_drop_to_download(page, address, tmp_path):
     page.open(address, 1280)
     drop(page, workbook(tmp_path / "t.xlsx"))
@@ -188,9 +206,7 @@ def test_from_drop_to_download(page, address, tmp_path):
     files = page.evaluate("[...document.querySelectorAll('#take a')].map(a => a.href)")
     names = {one.rpartition("/")[2].partition("?")[0] for one in files}
     assert {"report.pdf", "corrected.xlsx", "corrected.csv", "diagnosis.html", "law.json"} <= names
-    (pdf,) = (one for one in files if "report.pdf" in one)
-    with urllib.request.urlopen(pdf) as answer:
-        assert answer.read(5) == b"%PDF-"
+    assert taken(page, "report.pdf").startswith(b"%PDF-")
     assert {"law_abaqus.inp", "law_ansys.inp", "law_comsol.txt", "law_mepdg.csv", "law_xlsx.xlsx"} <= names
     for width in (1280, 390):
         for dark in (False, True):

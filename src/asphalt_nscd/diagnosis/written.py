@@ -82,15 +82,6 @@ def read_causality(paths: Sequence[Path]) -> pd.DataFrame:
     )
 
 
-def read_corrected(paths: Sequence[Path]) -> pd.DataFrame:
-    """Read the one corrected.csv: each test less what is established, NaN of one left out."""
-    table = read_csv(only_file(paths, "corrected tests"))
-    names = ("nominal_temperature_C", "frequency_Hz", "E_MPa", "phase_deg", "reduced_frequency_Hz")
-    return pd.DataFrame({name: table.numbers_or_nan(name) for name in names}).assign(
-        corrected_for=table.columns["corrected_for"]
-    )
-
-
 def conditions(residuals: pd.DataFrame, scatter: Mapping[str, Any]) -> pd.DataFrame:
     """Means over specimens by temperature and frequency.
 

@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from asphalt_nscd.diagnosis.written import conditions, read_corrected, read_diagnosis, read_residuals
+from asphalt_nscd.diagnosis.written import conditions, read_diagnosis, read_residuals
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.words import joined
 from asphalt_nscd.measurements.tables import only_file
@@ -104,16 +104,15 @@ def master(
     """
     rung = next((one for one in content["ladder"] if one["log10_shift"]), None)
     shift = {float(t): value for t, value in rung["log10_shift"].items()} if rung else {}
-    taken_off: dict[str, None] = {}
+    causes: list[str] = []
     if corrected:
-        after = read_corrected(corrected)
+        after = pd.read_csv(only_file(corrected, "corrected tests"))
         # The free master curve has a shift even where a law for each temperature fits as well.
         ratio = np.log10(after["reduced_frequency_Hz"] / after["frequency_Hz"])
         shift = ratio.groupby(after["nominal_temperature_C"]).median().to_dict()
         causes = [
-            one.replace("_", " ") for both in after["corrected_for"] for one in both.split(" + ") if one
+            one.replace("_", " ") for one in " + ".join(after["corrected_for"].dropna().unique()).split(" + ")
         ]
-        taken_off = dict.fromkeys(causes)
         tests = tests.assign(**{name: after[name].fillna(tests[name]) for name in ("E_MPa", "phase_deg")})
     stated = shift or content["reading"]["isotherms_C"]
     nominal = [float(at) for at in stated]
@@ -121,7 +120,7 @@ def master(
     modelled = conditions(placed[1].assign(temperature_C=placed[1]["isotherm_C"]), content["scatter"])
     modelled = _reduced(modelled, nominal, shift).sort_values("frequency_Hz")
     mix, law = _curves(curve) if shift and curve else (None, None)
-    return Master(placed[0], mix, law, modelled, shift, tuple(taken_off))
+    return Master(placed[0], mix, law, modelled, shift, tuple(dict.fromkeys(filter(None, causes))))
 
 
 def _reduced(tests: pd.DataFrame, nominal: list[float], shift: dict[float, float]) -> pd.DataFrame:

@@ -47,7 +47,7 @@ class _Report(FPDF):
 
     def __init__(self, title: str, made_by: str) -> None:
         super().__init__(format="A4")
-        self.title_text, self.made_by = title, made_by
+        self.made_by = made_by
         folder = Path(matplotlib.get_data_path(), "fonts", "ttf")
         for look, name in {"": "DejaVuSans", "B": "DejaVuSans-Bold", "I": "DejaVuSans-Oblique"}.items():
             self.add_font(FONT, look, folder / f"{name}.ttf")
