@@ -92,13 +92,14 @@ def read_campaign(
     _require_named_specimens(paths, parts)
     parts = drop_repeated(parts, notes)
     without_tests += dict.fromkeys(part.read.without_phase for part in parts if part.read.without_phase)
-    stated = {"mix": _one_mix(parts)} | _stated({part.path for part in parts})
+    lines = [cells for path in dict.fromkeys(part.path for part in parts) for cells in _first_lines(path)]
+    stated = {"mix": _one_mix(parts)} | _stated(lines)
     forms = sorted({part.read.form for part in parts})
     if len(forms) > 1:
         raise InputError(
             f"{_called(paths)}: the files hold {' and '.join(forms)}; give those of one form together."
         )
-    kind = test_type or _told_kind(paths, parts, forms[0], notes)
+    kind = test_type or _told_kind(parts, lines, forms[0], notes)
     table = _measured(_joined(paths, parts, notes), notes)
     _require_unit(paths, parts, table)
     strains = table.numbers_or_nan("microstrain")
@@ -114,7 +115,7 @@ def read_campaign(
     return Campaign(table, files, kind, tuple(notes), tuple(without_tests), stated), forms[0]
 
 
-def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: list[str]) -> str:
+def _told_kind(parts: Sequence[Part], lines: Sequence[list[str]], form: str, notes: list[str]) -> str:
     """The kind of test that files say: machines that export, forces of a bending test, or the name of its scheme."""
     if any(part.block.exported for part in parts):
         way = choice("say --measured-in bending", IN_THE_MENU)
@@ -123,9 +124,10 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
     if form in ("peaks", "records"):
         notes.append("forces and displacements are taken as of two-point bending")
         return "bending"
-    found = {kind for part in parts for kind in _schemes_in(part.path)}
-    if len(found) == 1:
-        kind = found.pop()
+    text = " ".join(cell for cells in lines for cell in cells)
+    kinds = [kind for kind, pattern in WORDS["scheme"].items() if re.search(pattern, text, re.IGNORECASE)]
+    if len(kinds) == 1:
+        kind = kinds[0]
         way = choice("say --measured-in", IN_THE_MENU)
         notes.append(f"taken as {kind}, for the file names such a test; else {way}")
         return kind
@@ -135,16 +137,10 @@ def _told_kind(paths: Sequence[Path], parts: Sequence[Part], form: str, notes: l
     return UNKNOWN
 
 
-def _schemes_in(path: Path) -> set[str]:
-    """Kinds of test, of `further_kinds.ALL_KINDS`, that the first lines of a file name."""
-    text = " ".join(cell for cells in _first_lines(path) for cell in cells)
-    return {kind for kind, pattern in WORDS["scheme"].items() if re.search(pattern, text, re.IGNORECASE)}
-
-
-def _stated(paths: set[Path]) -> dict[str, str]:
+def _stated(lines: Sequence[list[str]]) -> dict[str, str]:
     """What the first lines of files say for the head of a report, where all that say it agree."""
     found: dict[str, set[str]] = {}
-    for cells in (cells for path in paths for cells in _first_lines(path)):
+    for cells in lines:
         if standard := re.search(WORDS["head"]["standard"], " ".join(cells), re.IGNORECASE):
             found.setdefault("standard", set()).add(standard[0])
         filled = [cell for cell in cells if cell]

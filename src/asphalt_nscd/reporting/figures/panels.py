@@ -141,11 +141,16 @@ def _number(axes: Axes, row: Any, norm: BoundaryNorm) -> None:
     red, green, blue, _ = colormaps[COLOURS](norm(row.value))
     # By the brightness of the cell, to which green adds most.
     colour = "white" if 0.3 * red + 0.6 * green + 0.1 * blue < 0.5 else style.INK
-    digits = 0 if abs(row.value) >= 9.95 else 1
-    # + 0.0 makes a 0 of what is rounded to -0.
-    number = numbers.minus(f"{round(row.value, digits) + 0.0:.{digits}f}")
+    number = rounded(row.value)
     size = 0.7 * matplotlib.rcParams["font.size"]
     axes.text(row.k + 0.5, row.i + 0.5, number, ha="center", va="center", fontsize=size, color=colour)
+
+
+def rounded(value: float, sign: str = "") -> str:
+    """A number with a true minus and two digits, without decimals from ten on; `sign` as in a format."""
+    digits = 0 if abs(value) >= 9.95 else 1
+    # + 0.0 makes a 0 of what is rounded to -0.
+    return numbers.minus(f"{round(value, digits) + 0.0:{sign}.{digits}f}")
 
 
 def marked(axes: Axes, rows: pd.DataFrame) -> None:

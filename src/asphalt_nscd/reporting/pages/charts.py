@@ -247,11 +247,13 @@ def _condition(row: Mapping[str, Any], tests: pd.DataFrame, shown: tuple[str, st
     own = tests[
         (tests["isotherm_C"] == row["temperature_C"]) & (tests["frequency_Hz"] == row["frequency_Hz"])
     ]
-    each = ", ".join(f"{one} {_signed(off)}" for one, off in zip(own["specimen"], own[column], strict=True))
+    each = ", ".join(
+        f"{one} {panels.rounded(off, '+')}" for one, off in zip(own["specimen"], own[column], strict=True)
+    )
     return said(
         ("", row["temperature_C"], row["frequency_Hz"]),
         f"{celsius(row['temperature_C'])}, {row['frequency_Hz']:g} Hz: {name} measured less modelled {when}, mean "
-        f"{_signed(row[column])} {unit}; specimens: {each}",
+        f"{panels.rounded(row[column], '+')} {unit}; specimens: {each}",
     )
 
 
@@ -264,7 +266,7 @@ def _words(row: Mapping[str, Any], corrected: Sequence[float]) -> str:
     if (after := _modulus(*corrected)) not in words:
         words += f", corrected {after}"
     if pd.notna(row["phase_required_deg"]):
-        off = _signed(row["phase_deg"] - row["phase_required_deg"])
+        off = panels.rounded(row["phase_deg"] - row["phase_required_deg"], "+")
         words += f"; {off}° from what |E*| alone requires (standard error {row['std_error_deg']:.1f}°)"
     if row["reasons"]:
         words += f"; {row['status']}: {row['reasons']}"
@@ -273,12 +275,6 @@ def _words(row: Mapping[str, Any], corrected: Sequence[float]) -> str:
 
 def _modulus(modulus: float, phase: float) -> str:
     return f"|E*| {three_digits(float(modulus))} MPa, phase {minus(f'{phase:.1f}')}°"
-
-
-def _signed(value: float) -> str:
-    """A number with its sign (a true minus) and two digits, without decimals from ten on."""
-    digits = 0 if abs(value) >= 9.95 else 1
-    return minus(f"{round(value, digits) + 0.0:+.{digits}f}")
 
 
 def said(test: tuple[object, float, float], words: str) -> str:

@@ -165,14 +165,12 @@ def _resting_on(trust: Mapping[str, Any]) -> str:
 
 
 def _explained(master: fig_master.Master) -> str:
-    """What lines, band and points are."""
-    mix = f"certain faults are taken off, possible ones by their probability. Points: {master.points}."
-    if master.mix is None:
-        return (
-            f"In brackets: 95 % intervals. Values: the mix; {mix} Lines: modelled, one for each temperature."
-        )
+    """What line, band and points are."""
     law = " Dashed: the law below, of few parameters, for other programs." * (master.law is not None)
-    return f"In brackets: 95 % intervals. The line and its band are the mix, of which all values below are: {mix}{law}"
+    return (
+        "In brackets: 95 % intervals. The line and its band are the mix, of which all values below are: certain faults "
+        f"are taken off, possible ones by their probability. Points: {master.points}.{law}"
+    )
 
 
 def _master(folder: Path, content: Mapping[str, Any]) -> fig_master.Master:
