@@ -184,7 +184,7 @@ def _pictures(master: fig_master.Master) -> list[Any]:
     """Master curves of |E*| and phase."""
     figures = []
     for quantity in panels.QUANTITIES:
-        figure, axes = style.new_figure(86.0, 74.0)
+        figure, axes = style.new_figure(86.0, 62.0)
         master.panel(axes, quantity)
         panels.isotherm_legends(figure, master.keys("test"), master.isotherms)
         figures.append(figure)
