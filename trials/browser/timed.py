@@ -2,7 +2,7 @@
 
 PYTHONPATH=trials python -m browser.timed data/ncat/N1-1_RH.csv
 
-The table becomes a workbook first. Each width and scheme has its own server, started as a user does; nothing is warm.
+A CSV table becomes a workbook first. Each width and scheme has its own server, started as a user does; nothing is warm.
 The exit status is 1 where a run takes more than two minutes of wall time.
 """
 
@@ -68,8 +68,10 @@ def main() -> int:
         return 0
     output = given.output or Path(tempfile.mkdtemp(prefix="timed-"))
     output.mkdir(parents=True, exist_ok=True)
-    workbook = output / f"{given.table.stem}.xlsx"
-    pd.read_csv(given.table, dtype={"specimen": str}, comment="#").to_excel(workbook, index=False)
+    workbook = given.table
+    if workbook.suffix == ".csv":
+        workbook = output / f"{given.table.stem}.xlsx"
+        pd.read_csv(given.table, dtype={"specimen": str}, comment="#").to_excel(workbook, index=False)
     rows = {}
     for width, dark in WAYS:
         folder = output / f"{width}-{'dark' if dark else 'light'}"
