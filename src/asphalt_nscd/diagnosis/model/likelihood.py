@@ -8,7 +8,8 @@ estimate for one more cause costs milliseconds.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,15 +26,32 @@ ITERATIONS = 25
 NODES = 7  # of Gauss and Hermite's rule, over the logarithm of a size
 # Far below the gain of 6 that a name asks for.
 CONVERGED = 0.05  # change of -2 ln likelihood
+MOST_KEPT = 8  # factors of a model, of megabytes each
 
 
 @dataclass(frozen=True)
 class Reduced:
-    """Scatter and law taken out, with A = V0^-1 and data y: `gram` (q, q) is U^T A U, `along` (q,) is U^T A y."""
+    """Scatter and law taken out, with A = V0^-1 and data y: `gram` (q, q) is U^T A U, `along` (q,) is U^T A y.
+
+    `factors` are those at variances where many estimates begin, whatever the data and the cause.
+    """
 
     processes: Processes
     gram: NDArray
     along: Vector
+    factors: dict[bytes, Factor] = field(default_factory=dict)
+
+    def factor(self, variances: Vector) -> Factor:
+        """The factor at variances (m,)."""
+        return Factor(self.gram, np.sqrt(variances)[self.processes.block])
+
+    def kept_factor(self, variances: Vector) -> Factor:
+        """The same where other estimates may ask for it too."""
+        key = variances.tobytes()
+        factor = self.factors.get(key) or self.factor(variances)
+        if len(self.factors) < MOST_KEPT:
+            self.factors[key] = factor
+        return factor
 
     def selected(self, kept: NDArray[np.bool_]) -> Reduced:
         """The same with some of the processes (m,) alone."""
@@ -47,6 +65,43 @@ class Reduced:
             found.spread[kept],
         )
         return Reduced(less, self.gram[np.ix_(columns, columns)], self.along[columns])
+
+
+class Factor:
+    """Lower Cholesky factor of B = 1 + S G S at roots of variances (q,): S^-1 (1 - B^-1) S^-1 is what is left of G.
+
+    It `failed` where there is none: rounding, where a size is absurd.
+    """
+
+    def __init__(self, gram: NDArray, s: Vector) -> None:
+        # Transposed, for LAPACK wants columns: the Gram matrix is symmetric, and nothing is copied.
+        whole = (s[:, None] * gram * s).T
+        whole[np.diag_indices(s.size)] += 1.0
+        self.s = s
+        self.lower, failed = dpotrf(whole, lower=1, overwrite_a=1)
+        self.failed = bool(failed)
+
+    def solve(self, right: NDArray) -> NDArray:
+        """B^-1 times columns (q, k)."""
+        return dpotrs(self.lower, right, lower=1)[0]
+
+    def halve(self, right: NDArray) -> NDArray:
+        """L^-1 times columns (q, ...), with L L^T = B."""
+        return solve_triangular(self.lower, right, lower=True, check_finite=False)
+
+    @cached_property
+    def _inverse(self) -> NDArray:
+        return dtrtri(self.lower, lower=1)[0]
+
+    @cached_property
+    def diagonal(self) -> Vector:
+        """Diagonal (q,) of what is left, from the triangular inverse: all of it would cost several times as much."""
+        return (1.0 - np.einsum("ij,ij->j", self._inverse, self._inverse)) / self.s**2
+
+    @cached_property
+    def left(self) -> NDArray:
+        """What is left (q, q)."""
+        return (np.eye(self.s.size) - self._inverse.T @ self._inverse) / self.s[:, None] / self.s
 
 
 @dataclass(frozen=True)
@@ -125,7 +180,7 @@ def estimate(model: Reduced, cause: Direction | None = None, start: Vector | Non
     # On ln v variances stay above zero, and steps by orders of magnitude are short.
     log_v = np.log(usual**2 if start is None else np.maximum(start, LEAST))
     log_v[model.processes.known] = np.log(usual[model.processes.known] ** 2)
-    now = _point(model, cause, log_v)
+    now = _point(model, cause, log_v, model.kept_factor(np.exp(log_v)))
     # SQUAREM: two multiplicative steps, then a long one along both, taken back where it does not gain
     for _ in range(ITERATIONS):
         first = np.clip(log_v + now.step, lowest, highest)
@@ -188,14 +243,12 @@ def _curvature(model: Reduced, cause: Direction, variances: Vector) -> tuple[NDA
     With P the inverse covariance, law and cause taken out, dP/dv_k = -P U_k U_k^T P.
     """
     found, m = model.processes, variances.size
-    block, s = found.block, np.sqrt(variances)[found.block]
-    lower, failed = _factor(model, s)
-    if failed:
+    factor = model.kept_factor(variances)
+    if factor.failed:
         return np.zeros((m, m)), np.zeros(m)
-    inverse = dtrtri(lower, lower=1)[0]
-    left = (np.eye(s.size) - inverse.T @ inverse) / s[:, None] / s  # U^T P U
+    block, s, left = found.block, factor.s, factor.left
     right = s[:, None] * np.column_stack([model.along, cause.cross[:, 0]])
-    solved = dpotrs(lower, right, lower=1)[0]
+    solved = factor.solve(right)
     pull, sensed = (solved / s[:, None]).T
     # A direction that law and processes take up whole has no information; rounding would make it negative.
     information = max(float(cause.own[0, 0] - right[:, 1] @ solved[:, 1]), 1e-12)
@@ -212,60 +265,66 @@ def _curvature(model: Reduced, cause: Direction, variances: Vector) -> tuple[NDA
 
 @dataclass(frozen=True)
 class _Point:
-    """objective: of the restricted likelihood; misfit: the same without the size of the cause's interval."""
+    """objective: of the restricted likelihood; misfit: the same without the size of the cause's interval.
+
+    `pull` (q,) is U^T P y and `sensed` (q,) U^T P d, where the cause is in the model, of `information`.
+    """
 
     objective: float
     misfit: float
-    step: Vector  # of ln v
-    amplitude: float
-    std_error: float
+    processes: Processes
+    variances: Vector
+    factor: Factor
+    pull: Vector
+    sensed: Vector
+    amplitude: float = 0.0
+    information: float = 0.0
+
+    @property
+    def std_error(self) -> float:
+        """Of the amplitude; infinite without a cause."""
+        return self.information**-0.5 if self.information else np.inf
+
+    @cached_property
+    def step(self) -> Vector:
+        """Multiplicative step (m,) of ln v, made where it is asked for: it costs as much as the rest."""
+        found, block, m = self.processes, self.processes.block, self.variances.size
+        if self.factor.failed:
+            return np.zeros(m)
+        diagonal = self.factor.diagonal
+        if self.information:
+            diagonal = diagonal - self.sensed**2 / self.information
+        _, slope, _ = found.prior(self.variances)
+        # A prior that falls counts with the data, one that rises with the trace, so that both stay positive.
+        trace = np.bincount(block, np.maximum(diagonal, 0.0), m) + np.maximum(slope, 0.0)
+        square = np.bincount(block, self.pull**2, m) + np.maximum(-slope, 0.0)
+        # It keeps variances positive; its power of a half makes it monotone (minorise-maximise).
+        return np.where(found.known, 0.0, 0.5 * np.log(np.maximum(square, 1e-12) / trace))
 
 
-def _point(model: Reduced, cause: Direction | None, log_v: Vector) -> _Point:
-    """With B = 1 + S G S, S = sqrt(v): S^-1 (1 - B^-1) S^-1 is what is left of G, S^-1 B^-1 S y of the data."""
-    found = model.processes
-    block, m, v = found.block, log_v.size, np.exp(log_v)
-    s = np.sqrt(v)[block]
-    lower, failed = _factor(model, s)
-    if failed:
-        return _Point(np.inf, np.inf, np.zeros(m), 0.0, np.inf)
+def _point(model: Reduced, cause: Direction | None, log_v: Vector, factor: Factor | None = None) -> _Point:
+    """S^-1 B^-1 S y is what is left of the data; `factor` is the one there, where it is known."""
+    found, v = model.processes, np.exp(log_v)
+    factor = factor or model.factor(v)
+    s = factor.s
+    if factor.failed:
+        return _Point(np.inf, np.inf, found, v, factor, s, s)
     data = s * model.along
     right = data[:, None] if cause is None else np.column_stack([data, s * cause.cross[:, 0]])
-    solved = dpotrs(lower, right, lower=1)[0]
-    # the diagonal of U^T P U from the triangular inverse alone: the whole matrix would cost several times as
-    # much
-    inverse = dtrtri(lower, lower=1)[0]
-    diagonal = (1.0 - np.einsum("ij,ij->j", inverse, inverse)) / s**2
-    pull = solved[:, 0] / s
-    misfit = 2.0 * float(np.log(np.diag(lower)).sum()) - float(data @ solved[:, 0])
-    amplitude, std_error, interval = 0.0, np.inf, 0.0
-    if cause is not None:
-        information = max(float(cause.own[0, 0] - right[:, 1] @ solved[:, 1]), 1e-12)
-        along = float(cause.along[0] - right[:, 1] @ solved[:, 0])
-        # ln information is what restricted likelihood pays for the amplitude, as for the law
-        amplitude, std_error, interval = along / information, information**-0.5, np.log(information)
-        misfit -= along * amplitude
-        sensed = solved[:, 1] / s
-        diagonal = diagonal - sensed**2 / information
-        pull = pull - sensed * amplitude
-    prior, slope, _ = found.prior(v)
-    misfit += prior
-    # A prior that falls counts with the data, one that rises with the trace, so that both stay positive.
-    trace = np.bincount(block, np.maximum(diagonal, 0.0), m) + np.maximum(slope, 0.0)
-    square = np.bincount(block, pull**2, m) + np.maximum(-slope, 0.0)
-    # the multiplicative step keeps variances positive; its power of a half makes it monotone (minorise-
-    # maximise)
-    step = np.where(found.known, 0.0, 0.5 * np.log(np.maximum(square, 1e-12) / trace))
-    return _Point(misfit + interval, misfit, step, amplitude, std_error)
-
-
-def _factor(model: Reduced, s: Vector) -> tuple[NDArray, bool]:
-    """Lower factor of 1 + S G S, and whether there is none: rounding, where a size is absurd."""
-    # Transposed, for LAPACK wants columns: the Gram matrix is symmetric, and nothing is copied.
-    whole = (s[:, None] * model.gram * s).T
-    whole[np.diag_indices(s.size)] += 1.0
-    lower, failed = dpotrf(whole, lower=1, overwrite_a=1)
-    return lower, bool(failed)
+    solved = factor.solve(right)
+    pull, sensed = solved[:, 0] / s, solved[:, -1] / s
+    misfit = 2.0 * float(np.log(np.diag(factor.lower)).sum()) - float(data @ solved[:, 0]) + found.prior(v)[0]
+    if cause is None:
+        return _Point(misfit, misfit, found, v, factor, pull, sensed)
+    information = max(float(cause.own[0, 0] - right[:, 1] @ solved[:, 1]), 1e-12)
+    along = float(cause.along[0] - right[:, 1] @ solved[:, 0])
+    amplitude = along / information
+    misfit -= along * amplitude
+    # ln information is what restricted likelihood pays for the amplitude, as for the law
+    objective = misfit + float(np.log(information))
+    return _Point(
+        objective, misfit, found, v, factor, pull - sensed * amplitude, sensed, amplitude, information
+    )
 
 
 def correlation(model: Reduced, all_directions: Direction, variances: Vector) -> tuple[NDArray, Vector]:
@@ -277,8 +336,7 @@ def correlation(model: Reduced, all_directions: Direction, variances: Vector) ->
 
 def weighed(model: Reduced, all_directions: Direction, variances: Vector) -> tuple[NDArray, Vector]:
     """Information (k, k) and score (k,) of the amplitudes of k directions, law and discrepancy integrated out."""
-    s = np.sqrt(variances)[model.processes.block]
-    lower, _ = _factor(model, s)
-    half = solve_triangular(lower, s[:, None] * all_directions.cross, lower=True, check_finite=False)
-    data = solve_triangular(lower, s * model.along, lower=True, check_finite=False)
+    factor = model.kept_factor(variances)
+    half = factor.halve(factor.s[:, None] * all_directions.cross)
+    data = factor.halve(factor.s * model.along)
     return all_directions.own - half.T @ half, all_directions.along - half.T @ data

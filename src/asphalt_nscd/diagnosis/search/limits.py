@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,7 +81,7 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
     candidate = surveyed.candidates[k]
     typical = float(candidate.typical[0])
     one, direction = surveyed.estimates[k], surveyed.pointing.column(k)
-    amplitude = (threshold + Z_95) * one.std_error
+    amplitude, last = (threshold + Z_95) * one.std_error, list[Vector]()
     for _ in range(TIMES):
         seen = amplitude - Z_95 * one.std_error
         model, pointing = likelihood.moved(state.model, direction, seen - one.amplitude)
@@ -89,13 +90,16 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
         present = candidate.replace_values(np.array([amplitude * typical, *candidate.values[1:]]))
         odds = log_odds(present, state.plain.observed, 0.0, one.std_error * typical)
         needed = max(TWENTY_TIMES, 2.0 * (float(logit(POSSIBLE)) - odds))
-        # The first answer without the cause that does as well settles it; the slowest start comes last.
-        gains = (without.misfit - beside for without in answers(model, state.variances))
-        less = next((gain for gain in gains if gain < needed), None)
+        # The first answer without the cause that does as well settles it: that of the last size most often does, the
+        # slowest start comes last.
+        again = (likelihood.estimate(model, None, start) for start in last)
+        tried = chain(again, answers(model, state.variances))
+        less = next((other for other in tried if other.misfit - beside < needed), None)
         if less is None:
             break
+        last, gain = [less.variances], less.misfit - beside
         # What is seen gains by its square, once it is beyond what the processes take up.
-        amplitude += seen * float(np.clip(np.sqrt(needed / max(less, 1e-3)) - 1.0, *RAISED))
+        amplitude += seen * float(np.clip(np.sqrt(needed / max(gain, 1e-3)) - 1.0, *RAISED))
     return amplitude
 
 
