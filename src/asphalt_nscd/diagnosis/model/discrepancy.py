@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from itertools import compress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +63,18 @@ class Processes:
     block: NDArray[np.int64]
     usual: Vector
     spread: Vector
+
+    def selected(self, kept: NDArray[np.bool_]) -> Processes:
+        """Some of them (m,) alone."""
+        columns = kept[self.block]
+        return Processes(
+            tuple(compress(self.described, kept)),
+            tuple(compress(self.roots, kept)),
+            self.factor[:, columns],
+            (np.cumsum(kept) - 1)[self.block[columns]],
+            self.usual[kept],
+            self.spread[kept],
+        )
 
     @property
     def known(self) -> NDArray[np.bool_]:

@@ -40,7 +40,7 @@ class State:
     @property
     def hidden(self) -> Vector:
         """Variances (m,) of the discrepancy, zero of what a laboratory adds to any table."""
-        return np.where(laboratory.of_laboratory(self.model.processes), 0.0, self.variances)
+        return np.where(laboratory.is_everyday(self.model.processes), 0.0, self.variances)
 
     @property
     def everyday(self) -> Joint:
@@ -69,7 +69,7 @@ def begin(plain: Joint, fitted: Fitted) -> State:
     start = likelihood.estimate(likelihood.reduce(found, linear)).variances
     # A law that was fitted without the laboratory's errors has bent to them.
     straight = settle(plain, found, linear, linear.active, start)
-    known = laboratory.without_one(straight.model.processes, straight.linear, straight.variances)
+    known = laboratory.sizes_beside_fault(straight.model.processes, straight.linear, straight.variances)
     return smoothed(settle(plain, known, straight.fitted, linear.active, straight.variances))
 
 
@@ -125,7 +125,7 @@ def lean(found: Processes, variances: Vector, place: Place = None) -> Vector:
     there = np.array([bool(at & {one.specimen, one.isotherm}) for one in found.described])
     # One frequency off in all tests looks like what all isotherms have in common.
     there |= isinstance(place, Setting) & np.array([one.kind == "all" for one in found.described])
-    return np.where(there, discrepancy.LEAST, np.where(laboratory.of_laboratory(found), usual, variances))
+    return np.where(there, discrepancy.LEAST, np.where(laboratory.is_everyday(found), usual, variances))
 
 
 def smoothed(state: State) -> State:
@@ -180,15 +180,11 @@ def row_processes(
     found: Processes, plain: Joint, rows: NDArray, variances: Vector
 ) -> tuple[Processes, Vector]:
     """The processes of some rows (r,) and their variances, without those that reach none of the rows."""
-    kept = [k for k, root in enumerate(found.roots) if np.abs(root[rows]).max() > 0.0]
-    roots = tuple(found.roots[k][rows] for k in kept)
+    kept = np.array([bool(root[rows].any()) for root in found.roots])
+    part = found.selected(kept)
+    roots = tuple(root[rows] for root in part.roots)
     factor = np.hstack([plain.noise.whiten(root) for root in roots])
-    block = np.repeat(np.arange(len(kept)), [root.shape[1] for root in roots])
-    described = tuple(found.described[k] for k in kept)
-    return (
-        Processes(described, roots, factor, block, found.usual[kept], found.spread[kept]),
-        variances[kept],
-    )
+    return replace(part, roots=roots, factor=factor), variances[kept]
 
 
 def shape_cost(fitted: Fitted, candidate: Candidate, observed: Observations) -> float:

@@ -55,16 +55,10 @@ class Reduced:
 
     def selected(self, kept: NDArray[np.bool_]) -> Reduced:
         """The same with some of the processes (m,) alone."""
-        found, columns = self.processes, kept[self.processes.block]
-        less = Processes(
-            tuple(one for one, stays in zip(found.described, kept, strict=True) if stays),
-            tuple(root for root, stays in zip(found.roots, kept, strict=True) if stays),
-            found.factor[:, columns],
-            (np.cumsum(kept) - 1)[found.block[columns]],
-            found.usual[kept],
-            found.spread[kept],
+        columns = kept[self.processes.block]
+        return Reduced(
+            self.processes.selected(kept), self.gram[np.ix_(columns, columns)], self.along[columns]
         )
-        return Reduced(less, self.gram[np.ix_(columns, columns)], self.along[columns])
 
 
 class Factor:
@@ -112,9 +106,9 @@ class Direction:
     own: NDArray
     along: Vector
 
-    def column(self, k: int) -> Direction:
-        """One of the directions alone."""
-        return Direction(self.cross[:, [k]], self.own[[k]][:, [k]], self.along[[k]])
+    def columns(self, kept: Sequence[int] | NDArray[np.int64]) -> Direction:
+        """Some of the directions alone."""
+        return Direction(self.cross[:, kept], self.own[np.ix_(kept, kept)], self.along[kept])
 
 
 @dataclass(frozen=True)
@@ -213,14 +207,12 @@ def typical_variance(
     """
     nodes, weights = np.polynomial.hermite_e.hermegauss(NODES)
     tried = (size[0] * np.exp(size[1] * nodes)) ** 2
-    log_weight = np.empty((len(free), NODES))
-    for row, one in enumerate(free):
-        for column, variance in enumerate(tried):
-            v = np.where(np.arange(variances.size) == k, variance, variances)
-            objective = _point(model, one, np.log(np.maximum(v, LEAST))).objective
-            log_weight[row, column] = np.log(weights[column]) - 0.5 * (
-                objective - model.processes.prior(v)[0]
-            )
+    log_weight = np.tile(np.log(weights), (len(free), 1))
+    for column, variance in enumerate(tried):
+        v = np.maximum(np.where(np.arange(variances.size) == k, variance, variances), LEAST)
+        factor, prior = model.factor(v), model.processes.prior(v)[0]
+        for row, one in enumerate(free):
+            log_weight[row, column] -= 0.5 * (_point(model, one, np.log(v), factor).objective - prior)
     share = np.exp(log_weight - log_weight.max())
     return float(np.exp((share @ np.log(tried)).sum() / share.sum()))
 

@@ -80,10 +80,9 @@ class Survey:
     def part(self, told: bool) -> Survey:
         """Those that are told with their place, or those that get a rung."""
         kept = [k for k, one in enumerate(self.candidates) if one.cause.told == told]
-        pointing = self.pointing
         return Survey(
             [self.candidates[k] for k in kept],
-            Direction(pointing.cross[:, kept], pointing.own[np.ix_(kept, kept)], pointing.along[kept]),
+            self.pointing.columns(kept),
             [self.estimates[k] for k in kept],
             self.one_sided[kept],
         )
@@ -128,7 +127,7 @@ def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     scored = list(_scored(state, pointing))
     promising = set(_promising(state, candidates, pointing))
     estimates = [
-        likeliest(state.model, state.variances, pointing.column(k), candidate.place)
+        likeliest(state.model, state.variances, pointing.columns([k]), candidate.place)
         if k in promising
         else scored[k]
         for k, candidate in enumerate(candidates)
@@ -290,8 +289,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
     least = np.where(fitted, FOLLOWED, ABSORBED)
     left, size = np.diag(pointing.own), (d**2).sum(axis=0)
     seen = np.flatnonzero(left > least * np.maximum(size, 1e-300))
-    kept = Direction(pointing.cross[:, seen], pointing.own[np.ix_(seen, seen)], pointing.along[seen])
-    return [candidates[k] for k in seen], kept
+    return [candidates[k] for k in seen], pointing.columns(seen)
 
 
 def largest_by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Vector:
