@@ -83,14 +83,10 @@ def test_what_the_law_follows_is_not_seen_but_of_one_specimen(model):
     assert chance.scores(joint, one, followed, np.array([False])).z[0] == 0.0
 
 
-def independent(k, z=0.0):
-    return Scores(np.full(k, z), np.ones(k), np.ones(k, bool), np.eye(k))
-
-
 @pytest.mark.parametrize(("one_sided", "freedom"), [(False, 9), (True, 9), (False, 10**6)])
 def test_one_direction_alone_is_as_large_as_students_t(one_sided, freedom):
     drawn = chance.largest_by_chance(
-        independent(1), np.array([one_sided]), freedom, 200_000, np.random.default_rng(7)
+        np.eye(1), np.array([one_sided]), freedom, 200_000, np.random.default_rng(7)
     )
     for share in (0.9, 0.99):
         t = stats.t(freedom).ppf(share if one_sided else 0.5 + share / 2)
@@ -99,11 +95,10 @@ def test_one_direction_alone_is_as_large_as_students_t(one_sided, freedom):
 
 def test_the_largest_of_many_is_larger_and_of_equal_ones_is_not():
     random = np.random.default_rng(8)
-    many = chance.largest_by_chance(independent(20), np.zeros(20, bool), 10**6, 100_000, random)
+    many = chance.largest_by_chance(np.eye(20), np.zeros(20, bool), 10**6, 100_000, random)
     wanted = stats.norm.ppf(0.5 + 0.5 * 0.95 ** (1 / 20))  # all of twenty below it
     assert np.quantile(many, 0.95) == pytest.approx(wanted, rel=0.01)
-    equal = Scores(np.zeros(20), np.ones(20), np.ones(20, bool), np.ones((20, 20)))
-    drawn = chance.largest_by_chance(equal, np.zeros(20, bool), 10**6, 100_000, random)
+    drawn = chance.largest_by_chance(np.ones((20, 20)), np.zeros(20, bool), 10**6, 100_000, random)
     assert np.quantile(drawn, 0.95) == pytest.approx(1.96, rel=0.02)
 
 
@@ -113,7 +108,7 @@ def test_draws_of_a_seed_do_not_hang_on_the_signs_that_rounding_gives_eigenvecto
     rounding = 1e-12 * np.random.default_rng(0).standard_normal((4, 4))
     drawn = [
         chance.largest_by_chance(
-            Scores(np.zeros(4), np.ones(4), np.ones(4, bool), one),
+            one,
             np.zeros(4, bool),
             100,
             1000,
@@ -153,7 +148,8 @@ def test_modulus_and_phase_are_two_tries_of_one_chance(monkeypatch):
     random = np.random.default_rng(9)
 
     def scatter(*_):
-        return independent(6, z=random.standard_normal(6) / np.sqrt(random.chisquare(10) / 10))
+        z = random.standard_normal(6) / np.sqrt(random.chisquare(10) / 10)
+        return Scores(z, np.ones(6), np.ones(6, bool), np.eye(6))
 
     monkeypatch.setattr(chance, "scores", scatter)
     least = [min(one.p_value for one in ladder._interactions(TWO, None)) for _ in range(4000)]

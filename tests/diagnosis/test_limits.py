@@ -115,8 +115,6 @@ def test_causes_are_alike_if_three_limits_do_not_part_them():
     strongest = 3.0 * (3.7 + 1.645)
     for left, alike in ((5.0, True), (7.0, False)):
         r = np.sqrt(1.0 - left / strongest**2)
-        found = Scores(np.zeros(2), np.ones(2), np.ones(2, bool), np.array([[1.0, r], [r, 1.0]]))
-        assert bool(limits._alike([one, other], found, as_good=6.0)) is alike
+        assert bool(limits._alike([one, other], np.array([[1.0, r], [r, 1.0]]))) is alike
     same = [one, replace(one, values=(1.0,))]
-    everything = Scores(np.zeros(2), np.ones(2), np.ones(2, bool), np.ones((2, 2)))
-    assert limits._alike(same, everything, 6.0) == []
+    assert limits._alike(same, np.ones((2, 2))) == []

@@ -292,9 +292,8 @@ def _largest_by_chance(
         own = own - cross @ np.linalg.solve(information[:taken, :taken], cross.T)
     size = np.sqrt(np.maximum(np.diag(own), 1e-300))
     one_sided = np.array([cause.one_sided for cause in causes[taken:]])
-    scores = chance.Scores(np.zeros(size.size), size**2, np.ones(size.size, bool), own / size[:, None] / size)
     freedom = sum(one.state.plain.noise.freedom for one in states)
-    return chance.largest_by_chance(scores, one_sided, freedom, draws, random)
+    return chance.largest_by_chance(own / size[:, None] / size, one_sided, freedom, draws, random)
 
 
 def _told(

@@ -67,10 +67,13 @@ def scores(
 
 
 def largest_by_chance(
-    found: Scores, one_sided: NDArray[np.bool_], freedom: int, draws: int, random: np.random.Generator
+    correlation: NDArray, one_sided: NDArray[np.bool_], freedom: int, draws: int, random: np.random.Generator
 ) -> Vector:
-    """Largest z (draws,) by chance alone, absolute or upwards only; `freedom` is that of the scatter."""
-    value, vector = np.linalg.eigh(found.correlation)
+    """Largest of k z of a correlation (k, k) in each of `draws` (draws,), absolute or upwards only, by chance alone.
+
+    `freedom` is that of the scatter.
+    """
+    value, vector = np.linalg.eigh(correlation)
     # By eigenvalues, since causes that look alike leave the correlation without a Cholesky factor. The symmetric root:
     # signs of eigenvectors are rounding, and with them the draws of a seed would differ between processors.
     root = (vector * np.sqrt(np.maximum(value, 0.0))) @ vector.T

@@ -214,7 +214,7 @@ def _remaining(joint: Joint, fitted: Fitted, draws: int, random: np.random.Gener
     directions = np.column_stack([pattern.direction for pattern in patterns])
     anywhere = np.zeros(len(patterns), bool)
     found = chance.scores(joint, fitted, directions, anywhere)
-    by_chance = chance.largest_by_chance(found, anywhere, joint.noise.freedom, draws, random)
+    by_chance = chance.largest_by_chance(found.correlation, anywhere, joint.noise.freedom, draws, random)
     k = int(np.argmax(np.abs(found.z)))
     largest = float(abs(found.z[k]))
     alone = Remaining(chance.tail(by_chance, largest), patterns[k].name, largest**2)

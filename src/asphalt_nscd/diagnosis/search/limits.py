@@ -144,8 +144,7 @@ def detection_limits(
         hidden = {one.key: one for one in surveyed.candidates if one.key in taken_up & sizes.keys()}
         unseen += hidden.values()
         sizes = {key: size for key, size in sizes.items() if key not in hidden}
-        every = replace(found, seen=np.ones(errors.size, bool))
-        alike = _alike(surveyed.candidates, every, TWENTY_TIMES)
+        alike = _alike(surveyed.candidates, correlation)
     for active in (one for one in state.fitted.active if not one.cause.told):
         own = taken_amplitude(state, active)
         sizes[active.key] = (threshold + Z_95) * own.std_error * float(active.typical[0])
@@ -213,19 +212,15 @@ def _limit_ratio(joint: Joint, fitted: Fitted, candidate: Candidate, size: float
     return threshold / strength if strength > AT_LEAST * threshold else np.inf
 
 
-def _alike(
-    candidates: Sequence[Candidate], found: Scores, as_good: float
-) -> list[tuple[Candidate, Candidate]]:
-    """Pairs that even three times the detection limit does not tell apart; `as_good`: gain they may differ by."""
-    correlation = found.correlation
+def _alike(candidates: Sequence[Candidate], correlation: NDArray) -> list[tuple[Candidate, Candidate]]:
+    """Pairs that even three times the detection limit does not tell apart, by the correlation (k, k) of their z."""
     out: dict[tuple, tuple[Candidate, Candidate]] = {}
     for i, one in enumerate(candidates):
         for k in range(i):
             other = candidates[k]
-            if one.cause.name == other.cause.name or not (found.seen[i] and found.seen[k]):
-                continue
             # Of strength z along one direction a correlated one leaves z^2 (1 - r^2).
-            if STRONGEST**2 * (1.0 - correlation[i, k] ** 2) < as_good:
+            left = STRONGEST**2 * (1.0 - correlation[i, k] ** 2)
+            if one.cause.name != other.cause.name and left < TWENTY_TIMES:
                 out.setdefault((other.key, one.key), (other, one))
     return list(out.values())
 

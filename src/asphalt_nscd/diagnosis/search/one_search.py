@@ -30,7 +30,6 @@ from asphalt_nscd.diagnosis.criteria import (
     WORTH_SIZING,
 )
 from asphalt_nscd.diagnosis.model import chance, discrepancy, likelihood
-from asphalt_nscd.diagnosis.model.chance import Scores
 from asphalt_nscd.diagnosis.model.fit_beside import (
     State,
     afresh,
@@ -295,9 +294,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
 def largest_by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Vector:
     """The largest score of a survey in each of `draws` tables without a cause (draws,)."""
     correlation, _ = likelihood.correlation(state.model, surveyed.pointing, state.variances)
-    k = surveyed.one_sided.size
-    scores = Scores(np.zeros(k), np.ones(k), np.ones(k, bool), correlation)
-    return chance.largest_by_chance(scores, surveyed.one_sided, state.plain.noise.freedom, draws, random)
+    return chance.largest_by_chance(correlation, surveyed.one_sided, state.plain.noise.freedom, draws, random)
 
 
 def hangs_on(state: State, candidate: Candidate, before: State | None = None) -> list[str]:
