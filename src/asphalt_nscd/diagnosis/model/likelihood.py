@@ -106,7 +106,7 @@ class Direction:
     own: NDArray
     along: Vector
 
-    def columns(self, kept: Sequence[int] | NDArray[np.int64]) -> Direction:
+    def columns(self, kept: list[int]) -> Direction:
         """Some of the directions alone."""
         return Direction(self.cross[:, kept], self.own[np.ix_(kept, kept)], self.along[kept])
 

@@ -288,7 +288,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
     least = np.where(fitted, FOLLOWED, ABSORBED)
     left, size = np.diag(pointing.own), (d**2).sum(axis=0)
     seen = np.flatnonzero(left > least * np.maximum(size, 1e-300))
-    return [candidates[k] for k in seen], pointing.columns(seen)
+    return [candidates[k] for k in seen], pointing.columns(seen.tolist())
 
 
 def largest_by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Vector:
