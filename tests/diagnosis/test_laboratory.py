@@ -110,7 +110,9 @@ def test_the_scatter_holds_every_effect_once():
     fit = state.fitted
     assert not with_it.noise.shared.any()
     n, observed = joint.observed.size, joint.observed
-    per_kelvin, per_time = (laboratory._slope(joint, fit.law, *along) for along in ((0.0, 1.0), (1.0, 0.0)))
+    per_kelvin, per_time = (
+        of(joint, fit.law) for of in (laboratory._temperature_slope, laboratory._time_slope)
+    )
     same = observed.isotherm[:, None] == observed.isotherm
     own = observed.specimen[:, None] == observed.specimen
     mounted = same & own
@@ -177,7 +179,7 @@ def test_a_size_without_one_is_the_root_of_its_least_variance():
     columns = found.factor[:, found.block == k]
     every = likelihood.directions(model, state.linear, columns)
     for at in range(columns.shape[1]):
-        free = every.columns([at])
+        free = every.column(at)
         least = min(least, likelihood.estimate(model, free, state.variances).variances[k])
     assert known.usual[k] ** 2 == pytest.approx(least, rel=1e-9) and known.spread[k] == 0.0
 

@@ -162,7 +162,7 @@ def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | Non
     model = likelihood.reduce(state.model.processes, rest)
     pointing = likelihood.directions(model, rest, state.plain.noise.whiten(np.column_stack(columns)))
     # Those before the last are held at where they stand: their size is common and known far better.
-    variances = fit_beside.likeliest(model, state.variances, pointing.columns([len(shown) - 1])).variances
+    variances = fit_beside.likeliest(model, state.variances, pointing.column(len(shown) - 1)).variances
     if parts is not None:
         apart = columns[-1][:, None] * parts
         pointing = likelihood.directions(model, rest, state.plain.noise.whiten(apart))

@@ -78,7 +78,7 @@ def sizes_beside_fault(found: Processes, fitted: Fitted, variances: Vector) -> P
         columns = np.flatnonzero(found.block == k)
         if kind in OF_FEW and columns.size > FEW:
             every = likelihood.directions(model, fitted, found.factor[:, columns])
-            free = [every.columns([at]) for at in range(columns.size)]
+            free = [every.column(at) for at in range(columns.size)]
             if kind == ISOTHERMS:
                 prior = _same_control(variances[kinds.index(SPECIMENS)])
                 variance = likelihood.typical_variance(model, free, k, prior, variances)
@@ -118,7 +118,7 @@ def alone(joint: Joint) -> Joint:
 def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, NDArray[np.complex128]]:
     """What one unit of each effect does to ln E*, a column for each mounting."""
     mounted = np.eye(int(mounting.max()) + 1, dtype=complex)[mounting]
-    observed, per_kelvin = joint.observed, _slope(joint, at.law, 0.0, 1.0)[:, None]
+    observed, per_kelvin = joint.observed, _temperature_slope(joint, at.law)[:, None]
     roots = {
         ISOTHERMS: per_kelvin * (observed.isotherm[:, None] == observed.isotherms),
         SPECIMENS: per_kelvin * mounted,
@@ -128,17 +128,24 @@ def _roots(joint: Joint, at: Fitted, mounting: NDArray[np.int64]) -> dict[str, N
     # Times of a single specimen are the law's.
     if len(observed.names) > 1:
         specimens = np.eye(len(observed.names))[observed.specimen]
-        roots["specimen times"] = _slope(joint, at.law, 1.0, 0.0)[:, None] * specimens
+        roots["specimen times"] = _time_slope(joint, at.law)[:, None] * specimens
     return roots
 
 
-def _slope(joint: Joint, law: Vector, later: float, warmer: float) -> NDArray[np.complex128]:
-    """Derivative (n,) of ln E* along ln of all relaxation times or along the temperature, whichever is one."""
+def _time_slope(joint: Joint, law: Vector) -> NDArray[np.complex128]:
+    """Derivative (n,) of ln E* along ln of all relaxation times."""
     observed = joint.observed
     low, high = (
-        joint.base.modulus(law, observed.omega * np.exp(step * later), observed.temperature + step * warmer)[
-            0
-        ]
+        joint.base.modulus(law, observed.omega * np.exp(step), observed.temperature)[0]
         for step in (-STEP, STEP)
+    )
+    return np.asarray(np.log(high / low) / (2.0 * STEP), complex)
+
+
+def _temperature_slope(joint: Joint, law: Vector) -> NDArray[np.complex128]:
+    """Derivative (n,) of ln E* along the temperature."""
+    observed = joint.observed
+    low, high = (
+        joint.base.modulus(law, observed.omega, observed.temperature + step)[0] for step in (-STEP, STEP)
     )
     return np.asarray(np.log(high / low) / (2.0 * STEP), complex)

@@ -106,9 +106,10 @@ class Direction:
     own: NDArray
     along: Vector
 
-    def columns(self, kept: list[int]) -> Direction:
-        """Some of the directions alone."""
-        return Direction(self.cross[:, kept], self.own[np.ix_(kept, kept)], self.along[kept])
+    def column(self, *kept: int) -> Direction:
+        """One of the directions alone, or some."""
+        at = list(kept)
+        return Direction(self.cross[:, at], self.own[np.ix_(at, at)], self.along[at])
 
 
 @dataclass(frozen=True)

@@ -67,7 +67,7 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
         if surveyed.estimates[k].std_error < surveyed.estimates[other].std_error:
             best[candidate.key] = k
     for key, k in best.items():
-        typical, direction = surveyed.candidates[k].typical[0], surveyed.pointing.columns([k])
+        typical, direction = surveyed.candidates[k].typical[0], surveyed.pointing.column(k)
         one = likelihood.widen_error(state.model, direction, surveyed.estimates[k])
         out[key] = (one.amplitude * typical, one.std_error * typical)
     return out
@@ -80,7 +80,7 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
     """
     candidate = surveyed.candidates[k]
     typical = float(candidate.typical[0])
-    one, direction = surveyed.estimates[k], surveyed.pointing.columns([k])
+    one, direction = surveyed.estimates[k], surveyed.pointing.column(k)
     amplitude, last = (threshold + Z_95) * one.std_error, list[Vector]()
     for _ in range(TIMES):
         seen = amplitude - Z_95 * one.std_error

@@ -81,7 +81,7 @@ class Survey:
         kept = [k for k, one in enumerate(self.candidates) if one.cause.told == told]
         return Survey(
             [self.candidates[k] for k in kept],
-            self.pointing.columns(kept),
+            self.pointing.column(*kept),
             [self.estimates[k] for k in kept],
             self.one_sided[kept],
         )
@@ -126,7 +126,7 @@ def survey(state: State, catalogue: Sequence[Cause]) -> Survey:
     scored = list(_scored(state, pointing))
     promising = set(_promising(state, candidates, pointing))
     estimates = [
-        likeliest(state.model, state.variances, pointing.columns([k]), candidate.place)
+        likeliest(state.model, state.variances, pointing.column(k), candidate.place)
         if k in promising
         else scored[k]
         for k, candidate in enumerate(candidates)
@@ -288,7 +288,7 @@ def _pointing(state: State, catalogue: Sequence[Cause]) -> tuple[list[Candidate]
     least = np.where(fitted, FOLLOWED, ABSORBED)
     left, size = np.diag(pointing.own), (d**2).sum(axis=0)
     seen = np.flatnonzero(left > least * np.maximum(size, 1e-300))
-    return [candidates[k] for k in seen], pointing.columns(seen.tolist())
+    return [candidates[k] for k in seen], pointing.column(*seen.tolist())
 
 
 def largest_by_chance(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> Vector:
