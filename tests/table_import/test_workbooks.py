@@ -14,6 +14,7 @@ from layouts.laboratory import Laboratory
 from table_import.slips import plain, read, refused, said, workbook
 
 from asphalt_nscd.table_import.campaign import read_campaign
+from asphalt_nscd.table_import.decimals import Number
 
 TEMPERATURES, FREQUENCIES, SPECIMENS = (4, 21, 37), (10, 1), "123"
 KEYS = ["T (°C)", "f (Hz)"]
@@ -184,3 +185,11 @@ def test_tables_below_lines_of_their_specimens(tmp_path):
     assert held(read(tmp_path, [[None, *row] for row in rows], "t.xlsx")) == TESTS
     unnamed = [row for n, row in enumerate(rows) if row[0] != KEYS[0] or n == 2]
     refused(read, tmp_path, unnamed, "t.xlsx", names=["line 10", "stands among the tests"])
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(21.0, "21"), (4.2 + 1e-15, "4.2"), (-999999999999999.0, "-999999999999999"), (1e15, "1e+15")],
+)
+def test_a_number_of_a_workbook_is_written_as_a_person_would_and_kept_in_full(value, text):
+    assert Number(value) == text and Number(value).value == value

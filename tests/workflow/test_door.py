@@ -198,7 +198,7 @@ def programs(tmp_path, workspace):
         workspace.configure()
         (workspace.folder / "asphalt-nscd.sif").touch()
         path = os.pathsep.join([str(prefix / "bin"), os.environ["PATH"]])
-        command = workspace.command("results/smoke/laws/fitted/T0.json", "--cores", "1", *options)
+        command = workspace.command("results/smoke/measured.csv", "--cores", "1", *options)
         environment = workspace.environment | {"PATH": path}
         done = subprocess.run(command, cwd=workspace.folder, capture_output=True, text=True, env=environment)
         return done, prefix
@@ -211,11 +211,11 @@ def test_with_conda_the_steps_run_in_the_environment_of_the_file(programs):
     assert done.returncode == 0, done.stderr
     assert (prefix / "created").read_text().count("\n") == 1
     steps = [line.split()[2] for line in (prefix / "ran").read_text().splitlines()]
-    assert steps == ["reconstruct", "reduce", "fit"]
+    assert steps == ["reconstruct", "reduce"]
 
 
 def test_with_apptainer_the_steps_run_in_the_image(programs):
     done, prefix = programs(APPTAINER, "apptainer", "--sdm", "apptainer")
     assert done.returncode == 0, done.stderr
     ran = (prefix / "ran").read_text()
-    assert ran.count("asphalt-nscd.sif") == 3 and "asphalt-nscd fit" in ran
+    assert ran.count("asphalt-nscd.sif") == 2 and "asphalt-nscd reduce" in ran

@@ -146,7 +146,6 @@ PAPER = {
         simulate_extended_1 24 """
         + AFTER_DIAGNOSIS,
     ),
-    "a factor more": ([key("  - 1.5\n", "  - 1.5\n  - 2.0\n")], "scale_law 4 simulate_scaled 16 ..."),
     "a kernel of contacts": (
         [meaning("nscd/contacts/coulomb")],
         "compile 2 deposit 4 deposit_loose 2 trim 6 trim_facets 6 trim_likely 1 trim_part 1 "
@@ -154,9 +153,9 @@ PAPER = {
         + WHOLE
         + AFTER_DIAGNOSIS,
     ),
-    "a sentence: no simulation": (
-        [meaning("diagnosis/words/sentences")],
-        "diagnose 1 diagnose_family 12 ...",
+    "a factor more, and a sentence: no other simulation": (
+        [key("  - 1.5\n", "  - 1.5\n  - 2.0\n"), meaning("diagnosis/words/sentences")],
+        "scale_law 4 simulate_scaled 16 diagnose 1 diagnose_family 12 ...",
     ),
     "the seed of what is reconstructed": (
         [key("seed: 2020", "seed: 2021")],
