@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -71,18 +72,23 @@ def folders(inside: Path = PACKAGE) -> list[str]:
     return sorted(path.name for path in inside.iterdir() if path.is_dir() and path.name != "__pycache__")
 
 
-def imported(file: Path, package: str = "asphalt_nscd") -> set[str]:
-    """Folders and modules of a package that a file imports from, imports inside functions included."""
+@cache
+def named(file: Path) -> set[str]:
+    """Modules that a file imports and what it imports from them, by their full names; in functions too."""
     found = set()
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith(package):
-            names = [f"{node.module}.{alias.name}" for alias in node.names]
+        if isinstance(node, ast.ImportFrom):
+            found |= {str(node.module), *(f"{node.module}.{alias.name}" for alias in node.names)}
         elif isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names if alias.name.startswith(package)]
-        else:
-            continue
-        found |= {name.removeprefix(f"{package}.").split(".")[0] for name in names}
+            found |= {alias.name for alias in node.names}
     return found
+
+
+def imported(file: Path, package: str) -> set[str]:
+    """Folders and modules of a package that a file imports from."""
+    return {
+        name.removeprefix(f"{package}.").split(".")[0] for name in named(file) if name.startswith(package)
+    }
 
 
 DIAGNOSIS = "asphalt_nscd.diagnosis"
@@ -116,12 +122,7 @@ def test_no_modules_import_each_other():
         ".".join(file.relative_to(PACKAGE.parent).with_suffix("").parts): file
         for file in PACKAGE.rglob("*.py")
     }
-    needs = {}
-    for name, file in modules.items():
-        nodes = ast.walk(ast.parse(file.read_text(encoding="utf-8")))
-        froms = [node for node in nodes if isinstance(node, ast.ImportFrom)]
-        named = {f"{node.module}.{alias.name}" for node in froms for alias in node.names}
-        needs[name] = ((named | {node.module for node in froms}) & modules.keys()) - {name}
+    needs = {name: (named(file) & modules.keys()) - {name} for name, file in modules.items()}
     try:
         TopologicalSorter(needs).prepare()
     except CycleError as found:
