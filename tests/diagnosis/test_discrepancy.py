@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -109,3 +110,19 @@ def test_curvature_and_slope_are_those_of_finite_differences(random):
     assert curvature == pytest.approx(numeric, rel=1e-3, abs=1e-4)
     amplitude = approx_fprime(log_v, lambda x: likelihood._point(model, cause, x).amplitude, 1e-6)
     assert along == pytest.approx(amplitude, rel=1e-3, abs=1e-6)
+
+
+def test_two_steps_that_shrink_by_one_factor_lead_to_their_limit_at_once(monkeypatch):
+    """SQUAREM is exact where each step is the same share of the one before."""
+    limit, tried = np.log([0.01, 0.3, 0.002]), []
+
+    def point(model, cause, log_v):
+        tried.append(log_v)
+        left = limit - log_v
+        return likelihood._Point(float(left @ left), 0.0, 0.25 * left, 0.0, 1.0)
+
+    monkeypatch.setattr(likelihood, "_point", point)
+    processes = SimpleNamespace(usual=np.full(3, 0.1), known=np.zeros(3, bool))
+    found = likelihood.estimate(SimpleNamespace(processes=processes))
+    np.testing.assert_allclose(found.variances, np.exp(limit), rtol=1e-12)
+    np.testing.assert_allclose(tried[3], limit, rtol=1e-12)  # after the usual ones and two steps
