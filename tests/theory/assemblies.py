@@ -42,6 +42,10 @@ class Assembly:
         self.W = (self.jacobian @ sparse.diags_array(self.inverse_mass) @ self.jacobian.T).tocsr()
         self.q = self.jacobian @ self.velocity.ravel()
 
+    def velocity_after(self, reactions: np.ndarray) -> np.ndarray:
+        """Velocities (n, 6) of the bodies under the reactions."""
+        return self.velocity + (self.inverse_mass * (self.jacobian.T @ reactions)).reshape(-1, 6)
+
 
 def frame(normal: ArrayLike) -> np.ndarray:
     """Rows n, t1, t2."""
