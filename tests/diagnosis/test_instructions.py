@@ -33,6 +33,11 @@ def table(seed, effect=lambda modulus, specimen, temperature, omega: modulus) ->
     return replace(whole.subset(whole.specimen < 3), names=whole.names[:3], whole=None)
 
 
+def few(observed: Observations, *isotherms: float) -> Observations:
+    """Of these isotherms [degC] alone, whose diagnosis takes half the time."""
+    return replace(observed.subset(np.isin(observed.isotherm, isotherms)), whole=None)
+
+
 @pytest.fixture(scope="module")
 def delayed() -> Diagnosis:
     return diagnose(table(3, lambda e, s, t, w: e * np.exp(1.5e-4j * w)), draws=1000)
@@ -89,7 +94,7 @@ def test_metal_is_ordered_once_and_each_order_says_why(many_orders):
 @pytest.mark.parametrize("column", ["order", "cycles"])
 def test_a_specimen_that_was_worn_is_asked_for_further_tests(column):
     """A cause that follows the course of the tests; a new specimen has borne none."""
-    worn = table(3)
+    worn = few(table(3), -10.0, 10.0, 30.0)
     course = 1.0 + np.random.default_rng(5).permutation(worn.size)
     worn = replace(worn, **{column: course})
     loss = 0.3 * (course - 1.0) / (worn.size - 1.0)
@@ -393,9 +398,9 @@ def test_two_strains_are_asked_for_where_a_haversine_has_an_excess_phase(test_ty
     assert all("25 and 75 microstrain" in order["act"] for order in orders)
 
 
-def test_a_specimen_may_be_called_anything(delayed):
+def test_a_specimen_may_be_called_anything():
     """Names that look like a temperature, a frequency or a list once ended in a traceback."""
-    observed = delayed.observed
+    observed = few(table(3), 0.0, 15.0, 30.0)
     names = ("Mix 21 degC", "10 Hz, phase", "21", "specimen at 4 degC")[: len(observed.names)]
     odd = (observed.specimen == 1) & (observed.isotherm == 0)
     bent = np.where(observed.isotherm == observed.isotherm[-1], observed.frequency**0.3, 1.0)
