@@ -9,9 +9,11 @@ import shutil
 import pandas as pd
 import pytest
 from click.testing import CliRunner
+from matplotlib.figure import Figure
 from pypdf import PdfReader
 
 from asphalt_nscd.cli.diagnose import command
+from asphalt_nscd.reporting.pages import handout
 from asphalt_nscd.reporting.pages.handout import write_handout
 from asphalt_nscd.reporting.settings import Heading
 
@@ -99,3 +101,13 @@ def test_the_same_diagnosis_gives_the_same_bytes(folder, text):
     strain = re.search(r"Strain (\d+ to \d+ microstrain, as recorded)", text)[1]  # of the exports
     write_handout(folder, "Diagnosis of exports", Heading(**STATED, strain=strain))
     assert (folder / "report.pdf").read_bytes() == before
+
+
+def test_figures_stand_beside_each_other_within_the_page(monkeypatch):
+    paper, placed = handout._Report("A report", "us"), []
+    monkeypatch.setattr(paper, "image", lambda picture, x, y, w: placed.append((x, x + w)))
+    monkeypatch.setattr(handout, "figure_bytes", lambda figure, kind: b"")
+    paper.add_page()
+    paper.picture(*[Figure(figsize=(4.0, 3.0)) for _ in range(3)])
+    ends = [paper.l_margin, *(end for pair in placed for end in pair), paper.l_margin + paper.epw]
+    assert len(placed) == 3 and ends == sorted(ends)
