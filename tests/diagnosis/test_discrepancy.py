@@ -116,13 +116,15 @@ def test_two_steps_that_shrink_by_one_factor_lead_to_their_limit_at_once(monkeyp
     """SQUAREM is exact where each step is the same share of the one before."""
     limit, tried = np.log([0.01, 0.3, 0.002]), []
 
-    def point(model, cause, log_v):
+    def point(model, cause, log_v, factor=None):
         tried.append(log_v)
         left = limit - log_v
-        return likelihood._Point(float(left @ left), 0.0, 0.25 * left, 0.0, 1.0)
+        known = {"misfit": 0.0, "amplitude": 0.0, "std_error": 1.0}
+        return SimpleNamespace(objective=float(left @ left), step=0.25 * left, **known)
 
     monkeypatch.setattr(likelihood, "_point", point)
     processes = SimpleNamespace(usual=np.full(3, 0.1), known=np.zeros(3, bool))
-    found = likelihood.estimate(SimpleNamespace(processes=processes))
+    model = SimpleNamespace(processes=processes, kept_factor=lambda variances: None)
+    found = likelihood.estimate(model)
     np.testing.assert_allclose(found.variances, np.exp(limit), rtol=1e-12)
     np.testing.assert_allclose(tried[3], limit, rtol=1e-12)  # after the usual ones and two steps
