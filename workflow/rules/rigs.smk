@@ -1,4 +1,4 @@
-# Specimens of every test at full size against the law: E*, creep, relaxation. Ten minutes of a core, on request:
+# Specimens of every test at full size against the law: E*, creep, relaxation. On request; the prism takes 90 minutes of a core:
 #   snakemake rigs --cores all --configfile config/paper.yaml
 #   RIGS=cylinder tests one of them; the prism takes 45 000 spheres.
 
