@@ -125,6 +125,9 @@ def test_chance_of_a_score_is_the_share_of_draws_and_beyond_them_falls_like_the_
     for z in (3.5, 4.5, 6.0):
         assert chance.tail(drawn, z) == pytest.approx(2.0 * stats.norm.sf(z), rel=0.02)
     assert chance.tail(drawn, 0.0) == 1.0
+    few = stats.halfnorm.ppf((np.arange(500) + 0.5) / 500)
+    for share in (0.022, 0.018, 0.012, 0.004):  # eleven draws, and where the tail takes over
+        assert chance.tail(few, stats.norm.isf(share / 2.0)) == pytest.approx(share, rel=0.05)
 
 
 # two specimens at three frequencies, each test twice; freedom of the scatter

@@ -18,7 +18,7 @@ def command(
     cycling: Cycling,
     output: Path = OUTPUT,
 ) -> None:
-    """Press a specimen whose grains touch, open and slip, from rest; its record as a CSV."""
+    """Load from rest a specimen whose grains touch, open and slip; its record as a CSV."""
     from asphalt_nscd.bending.cycles import cycle, told
     from asphalt_nscd.bending.model import read_model
     from asphalt_nscd.files.store import write_table

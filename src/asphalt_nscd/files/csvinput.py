@@ -100,7 +100,7 @@ class Table:
     def text(self, name: str) -> list[str]:
         """A column of text, one for each row; refuses an empty field, and one that a spreadsheet takes for a formula.
 
-        It goes into tables that are opened again in spreadsheets.
+        The column goes into tables that are opened again in spreadsheets.
         """
         texts = [str(value) for value in self.columns[name]]
         for row, value in enumerate(texts):

@@ -57,20 +57,20 @@ def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> ND
 def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
     """Isotherm (n,) [degC] of each row of a table: its target where the table gives one, else by `isotherms`.
 
-    A row without a target belongs to that within READINGS_APART of it. Targets of two operators that were held at one
+    A row without a target takes the nearest one within READINGS_APART, else its own temperature. Targets of two operators that were held at one
     temperature are one (`_one_target`).
     """
     names = ("specimen", "replicate", "frequency_Hz", "amplitude_m", "order", "cycles")
-    tests = list(zip(*(table.columns[name] for name in names if name in table.columns), strict=True))
+    conditions = list(zip(*(table.columns[name] for name in names if name in table.columns), strict=True))
     target = table.numbers_or_nan("nominal_temperature_C")
     told = np.isfinite(target)
     if not told.any():
-        return isotherms(temperature, tests)
+        return isotherms(temperature, conditions)
     target = _one_target(target, temperature, np.array(table.columns.get("specimen", [""] * target.size)))
     nominal = np.where(told, target, temperature)
     for row in np.flatnonzero(~told):
-        near = np.unique(target[told])
-        near = near[np.abs(near - temperature[row]) <= READINGS_APART]
+        targets = np.unique(target[told])
+        near = targets[np.abs(targets - temperature[row]) <= READINGS_APART]
         if near.size:
             nominal[row] = near[np.argmin(np.abs(near - temperature[row]))]
     return nominal

@@ -175,7 +175,7 @@ def _drop_remarks(rows: list[Row], size: int, notes: list[str]) -> list[Row]:
 
 
 def _trimmed(cells: list[str]) -> list[str]:
-    """Cells without needless blanks, up to the last that holds something, and with one kind of minus."""
+    """Cells without needless blanks, up to the last that holds something, and with one kind of minus before a number."""
     # Word processors write a minus sign or a dash for a hyphen; `float` takes neither.
     cells = [
         cell if isinstance(cell, Number) else re.sub(r"^[−–](?=[\d.,])", "-", " ".join(cell.split()))

@@ -10,7 +10,7 @@ from matplotlib.patches import Rectangle
 from tiny_results import LAWS, modulus
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.files.store import write_table
+from asphalt_nscd.files.store import read_json, write_json, write_table
 from asphalt_nscd.reporting.figures import fig10_extended, fig_black, fig_limits, fig_master, fig_residual_map
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
@@ -125,6 +125,17 @@ def test_limits_stand_in_units_of_use_beside_what_was_found(results):
     (bar,) = found[2][0].get_segments()
     assert bar[:, 0] == pytest.approx([3.0 - 1.96 * 0.2, 3.0 + 1.96 * 0.2])
     assert "reconstructed data" in texts_of(figure)
+
+
+def test_what_was_found_at_0_degC_stands_at_its_isotherm(results):
+    (path,) = results.diagnosis()["diagnosis"]
+    content = read_json(path)
+    bias = {"bias": {"value": 1.5, "std_error": 0.1, "unit": "K"}}
+    content["ladder"].append(content["ladder"][0] | {"cause": "temperature_bias", "where": 0.0, "parameters": bias})
+    write_json(path, content)
+    axes = fig_limits.draw(diagnosis=[path]).axes[2]
+    (found,) = [bars for bars in axes.containers if isinstance(bars, ErrorbarContainer)]
+    assert (found[0].get_xdata()[0], found[0].get_ydata()[0]) == pytest.approx((1.5, 0))
 
 
 def test_before_and_after_share_their_axes(results, tmp_path):

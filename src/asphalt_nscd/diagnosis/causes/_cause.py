@@ -54,7 +54,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Expected:
-    """The `chance` that a campaign has a cause at all, and its usual `size` in the unit of its amplitude.
+    """Prior: the `chance` that a campaign has a cause at all, and its usual `size` in the unit of its amplitude.
 
     Both are judgements, to a factor of two or so, of what happens on such benches; no survey of laboratories is at
     hand. A factor of two in a chance moves the size that is named by some 5 %.

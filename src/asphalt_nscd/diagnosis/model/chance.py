@@ -84,13 +84,14 @@ def largest_by_chance(
 
 
 def tail(by_chance: Vector, z: float) -> float:
-    """Chance of z or more, above zero: the share of draws, and beyond them the normal tail scaled to meet them."""
-    share = float(np.mean(by_chance >= z))
+    """Chance of z or more, above zero: the share of draws, or where they are few the normal tail scaled to meet them."""
+    count = np.count_nonzero(by_chance >= z)
     # Fewer than ten draws tell a chance to a third at best.
-    if share * by_chance.size >= 10:
-        return share
-    edge = float(np.quantile(by_chance, 0.99))
-    return float(min(0.01, 0.01 * float(ndtr(-z)) / float(ndtr(-edge))))
+    if count >= 10:
+        return count / by_chance.size
+    most = max(0.01, 10 / by_chance.size)
+    edge = float(np.quantile(by_chance, 1.0 - most))
+    return float(min(most, most * float(ndtr(-z)) / float(ndtr(-edge))))
 
 
 def catalogue_candidates(observed: Observations, catalogue: Sequence[Cause]) -> list[Candidate]:

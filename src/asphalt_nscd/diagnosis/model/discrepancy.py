@@ -106,7 +106,7 @@ class Processes:
 
 
 def processes(joint: Joint, fitted: Fitted) -> Processes:
-    """The processes that a table may hold; what a specimen's own spectrum does is linearised at the fit."""
+    """Gaussian processes of the discrepancy that a table may hold; what a specimen's own spectrum does is linearised at the fit."""
     observed, noise = joint.observed, joint.noise
     described, roots = list[Process](), []
     # The law of a single specimen is its spectrum.
@@ -123,8 +123,8 @@ def processes(joint: Joint, fitted: Fitted) -> Processes:
     usual = [DISCREPANCY[process.kind] for process in described]
     factor = np.hstack([noise.whiten(root) for root in roots])
     block = np.repeat(np.arange(len(roots)), [root.shape[1] for root in roots])
-    rare = np.full(len(usual), np.inf)
-    return Processes(tuple(described), tuple(roots), factor, block, np.array(usual), rare)
+    spread = np.full(len(usual), np.inf)  # not known: a half Cauchy prior
+    return Processes(tuple(described), tuple(roots), factor, block, np.array(usual), spread)
 
 
 def _spectrum_factor(joint: Joint, fitted: Fitted) -> NDArray[np.complex128]:

@@ -196,18 +196,19 @@ def _refit_ratio(joint: Joint, fitted: Fitted, candidate: Candidate, size: float
 
 
 def _limit_ratio(joint: Joint, fitted: Fitted, candidate: Candidate, size: float, threshold: float) -> float:
-    """The limit over a size near it; infinite where the law follows an effect of this size.
+    """Detection limit divided by `size`, a size near it, found by refitting; infinite where the law follows the effect.
 
     The fitted model with the effect stands for the table, without scatter; what the law without the effect leaves
     of it is the strength that is seen.
     """
     present = (*fitted.active, candidate.replace_values(np.array([size, *candidate.values[1:]])))
     modulus = joint.apparent(fitted.law, present, fitted.scales)[0]
-    shown = Joint(replace(joint.observed, modulus=modulus), joint.base, joint.noise)
+    table = Joint(replace(joint.observed, modulus=modulus), joint.base, joint.noise)
     # against the truth, not zero: the priors of law and scales cost something there too
-    truth = shown.linearise(fitted.law, fitted.scales, present).objective
-    follows = shown.fit(fitted.law, fitted.scales, fitted.active, CONVERGED)
-    left = fit_roughness(shown, follows, CONVERGED)[1].objective - truth
+    truth = table.linearise(fitted.law, fitted.scales, present).objective
+    refit = table.fit(fitted.law, fitted.scales, fitted.active, CONVERGED)
+    _, refitted = fit_roughness(table, refit, CONVERGED)
+    left = refitted.objective - truth
     strength = float(np.sqrt(max(left, 0.0)))
     return threshold / strength if strength > AT_LEAST * threshold else np.inf
 

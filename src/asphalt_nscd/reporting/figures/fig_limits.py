@@ -33,7 +33,10 @@ def draw(diagnosis: list[Path]) -> Figure:
         axes.set_axis_off()
         axes.text(0.5, 0.5, NONE, ha="center", va="center", transform=axes.transAxes)
         return figure
-    found = {(rung["cause"], str(rung["where"] or "")): _amplitude(rung) for rung in content["ladder"]}
+    found = {
+        (rung["cause"], "" if rung["where"] is None else str(rung["where"])): _amplitude(rung)
+        for rung in content["ladder"]
+    }  # "" stands for all tests; an isotherm may be at 0.0
     bars = {cause: limit.get("places", {"": limit["value"]}) for cause, limit in limits.items()}
     sizes = [len(rows) * ROW + FRAME for rows in bars.values()]
     figure, panels = style.new_figure(
