@@ -75,14 +75,23 @@ def million(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def with_earlier(table: pd.DataFrame, folder: Path) -> pd.DataFrame:
-    """Rows measured now, then those of an earlier table that are not among them."""
+    """Rows measured now, then those of an earlier table that are not among them; of what is absent now the earlier."""
     commit = json.loads((folder / "provenance.json").read_text())["git_commit"][:7]
-    both = pd.concat([table, pd.read_csv(folder / "benchmark.csv")[COLUMNS]], ignore_index=True)
+    before = pd.read_csv(folder / "benchmark.csv")[COLUMNS]
+    before = before[~_absent(before)]
+    known = {*before.topic, *zip(before.topic, before.case, strict=True)}
+    named = table.topic.where(table.case.isna(), list(zip(table.topic, table.case, strict=True)))
+    table = table[~(_absent(table) & named.isin(known))]
+    both = pd.concat([table, before], ignore_index=True)
     both = both[~both.duplicated(["topic", "case", "spheres"])].reset_index(drop=True)
     remark = both["remark"].fillna("")
     earlier = (both.index >= len(table)) & ~remark.str.contains("measured at ")
     both.loc[earlier, "remark"] = (remark[earlier] + f"; measured at {commit}").str.removeprefix("; ")
     return both
+
+
+def _absent(table: pd.DataFrame) -> pd.Series:
+    return table["remark"].fillna("").str.startswith("absent: ")
 
 
 def main() -> None:

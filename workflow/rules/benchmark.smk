@@ -66,9 +66,6 @@ MADE |= {
         {"problems": PROBLEMS},
         "fclib",
     ),
-    "benchmark_law": Made(
-        "Fit a law to 54, 120 and 1000 tests", "law.py", "results/benchmark/rows/law.csv", steps="diagnose"
-    ),
     "benchmark_diagnosis": Made(
         "Diagnose 54, 120 and 1000 tests",
         "diagnosis.py 54 120 1000",
@@ -103,8 +100,6 @@ MADE["benchmark"] = Made(
             *expand("results/benchmark/rows/cycle-{method}.csv", method=METHODS),
             *expand("results/benchmark/rows/{part}-{size}.csv", part=["preparation", "growth"], size=SIZES),
             "results/benchmark/rows/fclib.csv",
-            "results/benchmark/rows/law.csv",
-            "results/benchmark/diagnosis.csv",
         ]
     },
     more={
