@@ -83,7 +83,8 @@ def with_earlier(table: pd.DataFrame, folder: Path) -> pd.DataFrame:
     named = table.topic.where(table.case.isna(), list(zip(table.topic, table.case, strict=True)))
     table = table[~(_absent(table) & named.isin(known))]
     both = pd.concat([table, before], ignore_index=True)
-    both = both[~both.duplicated(["topic", "case", "spheres"])].reset_index(drop=True)
+    size = both.spheres.where(both.topic == "growth")  # beside peers a case has one size
+    both = both[~both.assign(size=size).duplicated(["topic", "case", "size"])].reset_index(drop=True)
     remark = both["remark"].fillna("")
     earlier = (both.index >= len(table)) & ~remark.str.contains("measured at ")
     both.loc[earlier, "remark"] = (remark[earlier] + f"; measured at {commit}").str.removeprefix("; ")

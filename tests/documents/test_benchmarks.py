@@ -97,6 +97,7 @@ def test_rows_that_are_not_measured_again_are_kept_with_their_commit(tmp_path):
         ("growth", "pour", 200_000, None, 99.0, 1.0, "slow"),
         ("FCLIB to 1e-8", "tower", None, None, 9.0, 1.0, None),
         ("pouring", "liggghts", 1000, None, 90.0, 1.0, "measured at 7654321"),
+        ("pouring", "nscd", 900, None, 5.0, 1.0, None),
     ]
     write_table(tmp_path / "benchmark.csv", pd.DataFrame(earlier, columns=COLUMNS))
     (tmp_path / "provenance.json").write_text('{"git_commit": "0123456789"}')
@@ -106,14 +107,15 @@ def test_rows_that_are_not_measured_again_are_kept_with_their_commit(tmp_path):
         ("FCLIB to 1e-8", None, None, None, None, None, "absent: no files given"),
         ("pouring", "liggghts", None, None, None, None, "absent: not installed"),
         ("pouring", "yade", None, None, None, None, "absent: not installed"),
+        ("pouring", "nscd", 1000, None, 4.0, 1.0, None),
     ]
     write_table(tmp_path / "rows.csv", pd.DataFrame(now, columns=COLUMNS))
     for _ in range(2):  # what was kept once is kept with its own commit
         tell(tmp_path, "collect.py", "rows.csv", *OUTPUTS, "--earlier", ".")
         table = pd.read_csv(tmp_path / "table.csv")
-        assert table["cpu_s"].fillna(0.0).tolist() == [1.0, 2.0, 0.0, 99.0, 90.0]
+        assert table["cpu_s"].fillna(0.0).tolist() == [1.0, 2.0, 0.0, 4.0, 99.0, 90.0]
         assert table["remark"].fillna("").tolist() == [
-            *("", "", "absent: not installed", "slow; measured at 0123456", "measured at 7654321")
+            *("", "", "absent: not installed", "", "slow; measured at 0123456", "measured at 7654321")
         ]
         (tmp_path / "benchmark.csv").write_bytes((tmp_path / "table.csv").read_bytes())
         (tmp_path / "provenance.json").write_text('{"git_commit": "abcdef0123"}')
