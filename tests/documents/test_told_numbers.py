@@ -224,20 +224,20 @@ def test_laws_of_measured_mixes():
     burgers, one_law, as_run = (said[rung] for rung in ("burgers", "one_law", "as_run"))
     assert f"by {burgers[0]} % of |E\\*| and {burgers[1]} % of the phase; one law for all temp" in readme()
     assert f"temperatures by {one_law[0]} and {one_law[1]} %" in readme()
-    assert f"read a haversine, by {as_run[0]} and {as_run[1]} % without a further parameter" in readme()
+    assert f"error of a drifting haversine by {as_run[0]} and {as_run[1]} %, which fits nothing more" in readme()
     out = table.left_out_isotherm_E_percent
     phase = table.left_out_isotherm_phase_percent
     told = " and ".join(
         f"{row.burgers:.1f}, {row.one_law:.1f} and {row.as_run:.1f} % of {what}"
         for row, what in ((out, "|E\\*|"), (phase, "the phase"))
     )
-    assert f"miss by {told}: read so, the law extrapolates worse" in readme()
+    assert f"miss by {told}: the third is no gain" in readme()
     for missed in (out, phase):
         assert missed.as_run > max(missed.one_law, missed.phase_offset) and "extrapolates worse" in page(
             "measured"
         )
     rival = table.loc["phase_offset"]
-    assert f"constant instead by {rival.E_percent:.1f} and {rival.phase_percent:.1f} %" in readme()
+    assert f"offset instead by {rival.E_percent:.1f} and {rival.phase_percent:.1f} %" in readme()
     assert table.phase_percent["as_run"] < table.phase_percent["phase_offset"]
     assert table.E_percent["as_run"] < 1.01 * table.E_percent["phase_offset"]
 
@@ -267,7 +267,7 @@ def test_what_explains_the_excess_phase():
         assert f"{verb} {cold}, {warm} and {hottest}°" in page("measured")
     both = ncat.reading_deg + ncat.weak_films_deg - ncat.measured_deg
     assert (both[[4.0, 20.0]] > 2.0 * ncat.standard_error_deg[[4.0, 20.0]]).all()
-    assert f"{ncat.weak_films_deg[4.0]:.1f} to {ncat.weak_films_deg[40.0]:.1f}° if they are weak" in readme()
+    assert f"{ncat.weak_films_deg[4.0]:.1f} to {ncat.weak_films_deg[40.0]:.1f}° if weaker" in readme()
     third = hot.weak_films_deg / hot.measured_deg
     assert 0.28 < third[37.8] < 0.36 and 0.22 < third[54.4] < 0.3
     share = hot.reading_deg / hot.measured_deg
@@ -308,7 +308,7 @@ def test_verdicts_on_the_paper():
     told = (
         f"of {verdicts.sum()}, {verdicts.sum() - verdicts['not judged']} were judged; {verdicts['holds']} hold, "
         f"{verdicts['reproduced']} are reproduced, {verdicts['inconsistent in itself']} contradict themselves, "
-        f"{verdicts['differs']} differ from ours; {untold} are left open or cannot be checked"
+        f"{verdicts['differs']} differ from ours; {untold} stay open or cannot be checked"
     )
     assert told in readme() and verdicts.size == 7
 
