@@ -17,7 +17,7 @@ TEXTS = {
     "pages/diagnosis.html": "<p>At 0.125, commit %s.</p>\n",
     "study.json": '{"a": 1, "b": 2}\n',
     "figures/fig01.svg": "<path d='M 0.125'/>\n",
-    "provenance.json": '{"git_commit": "%s", "python": "3.11"}\n',
+    "provenance.json": '{"git_commit": "%s", "python": "3.11", "made_by": {"tests": {"%s": 1}}}\n',
 }
 TEST = Path("tests/s1.h5")
 
