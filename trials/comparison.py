@@ -1,7 +1,8 @@
 """Two folders of results, compared bit for bit but for when, where and how fast they were made.
 
-Left out are files that hold nothing else (`OF_A_RUN`), hidden ones, which hold digests of others, and the commit in
-JSON and on pages, and how many files which commit made. Of HDF5, which holds addresses of its own, every array and attribute is compared, not the bytes.
+Left out are files that hold nothing else (`OF_A_RUN`), hidden ones, which hold digests of others, the commit in
+JSON and on pages, and which commit made how many files. Of HDF5, which holds addresses of its own, every array and
+attribute is compared, not the bytes.
 """
 
 from __future__ import annotations
