@@ -22,7 +22,7 @@ LINE = 64  # bytes
 ALIGNMENT = (
     8  # bytes, of one number: LLVM would load whole lines, which fault in views and copies that straddle them
 )
-_PLACE = ir.IntType(32)
+_PLACE = ir.IntType(32)  # of the number of a lane
 
 
 class _Lanes(types.Type):
@@ -50,7 +50,7 @@ def aligned(shape: tuple[int, ...]) -> np.ndarray:
 
 
 def _lane_by_lane(action: Callable[..., Any], instruction: str) -> None:
-    """Let `action` take two lanes."""
+    """Let the operator `action` take two Lanes, by the LLVM `instruction` of this name."""
 
     @intrinsic
     def act(typing_context: Any, a: Any, b: Any) -> Any:

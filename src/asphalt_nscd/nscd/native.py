@@ -50,6 +50,7 @@ def native(name: str, build: Callable[[], tuple[str, str]]) -> int:
 
 
 def _compile(symbol: str, assembly: str) -> bytes:
+    """What is kept of a kernel: a line of JSON (its symbol, the foreign names), then object code."""
     machine = _machine()[0]
     module = llvm.parse_assembly(assembly)
     named = [*module.functions, *module.global_variables]

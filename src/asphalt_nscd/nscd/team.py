@@ -147,6 +147,7 @@ class _Member(threading.Thread):
         return value
 
     def run(self) -> None:
+        """Answer one call after another, until one has no task."""
         number, called = 1, _reached(self._calls, 0, 1, AWAKE)
         while True:
             while not called:
@@ -181,7 +182,7 @@ class Team:
     def run(self, kernel: Callable[..., Any], *arguments: Any) -> list[Any]:
         """Run kernel(rank, members, barrier, *arguments) by all members, and give what each returned.
 
-        It begins with `mark_started`. If one fails or the caller is interrupted, meetings end.
+        The kernel must begin with `mark_started`. If one fails or the caller is interrupted, meetings end.
         """
         barrier = np.zeros(32, np.int64)
         try:
@@ -197,6 +198,7 @@ class Team:
             raise
 
     def _begin(self, task: Task | None, barrier: np.ndarray, members: int) -> None:
+        """Give the others a task and call them; None ends them."""
         for other in self._others:
             other.wait(int(self._calls[0]))  # of a call that ended by the failure of another
             other.task = task

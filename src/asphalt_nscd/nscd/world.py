@@ -90,7 +90,6 @@ class World:
         around: Surroundings,
         dt: float,
     ) -> None:
-        """position (n, 3) [m], radius (n,) [m]; mass (n, 6) [kg, kg m2] of translations and rotations."""
         self.position, self.radius, self.mass = position.copy(), radius, mass.ravel()
         self.bonds, self.law, self.around, self.dt = bonds, law, around, dt
         self.rotation = Rotation.from_quat(np.tile([0.0, 0.0, 0.0, 1.0], (radius.size, 1)))
@@ -207,7 +206,7 @@ class World:
         return 0.5 * self.law.stored(diagonal_form(self.weight), state, state)
 
     def _lose(self, stored: float) -> None:
-        """Account for bonds that broke since this was stored."""
+        """Account for bonds that broke since springs stored `stored` [J]."""
         self.energies.fracture += stored - self._stored()
         self.energies.springs = self._stored()
 
@@ -245,7 +244,7 @@ class _Contacts:
     friction: np.ndarray  # (c,)
     arm: np.ndarray  # (c,) m, of the largest couple
     rows_met: sparse.csr_matrix  # (3 c', 6 n) of those that closed; of a law with couples, then their turning
-    impulse: np.ndarray  # theirs: N s, then N m s
+    impulse: np.ndarray  # (3 c',) of these rows: N s, then N m s
     met: int = 0  # how many closed
     _kept: tuple[SuperLU, bytes, np.ndarray] | None = None
 
@@ -254,6 +253,7 @@ class _Contacts:
         """Those of spheres that no bond joins, as they stand at the start of the step."""
         around, radius, n = world.around, world.radius, world.radius.size
         speed = np.linalg.norm(world.velocity.reshape(-1, 6)[:, :3], axis=1).max()
+        # twice as far as the two fastest could approach each other, and a margin
         reach = 4.0 * world.dt * (speed + world.dt * np.linalg.norm(around.gravity)) + 0.05 * radius.min()
         planes = around.plane_point, around.plane_normal
         found = find_pairs(world.position, radius, *planes, reach)

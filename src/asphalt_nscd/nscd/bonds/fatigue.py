@@ -16,7 +16,7 @@ import numpy as np
 from asphalt_nscd.nscd.bonds.statics import Statics
 from asphalt_nscd.nscd.bonds.system import BondedSystem
 
-LEFT = 1e-3  # of the stiffness of a bond that is lost: spheres on lost bonds alone keep their place
+LEFT = 1e-3  # share of its stiffness that a lost bond keeps: spheres on lost bonds alone stay in place
 TOLERANCE = 1e-6  # of the static solution
 ENOUGH_ITERATIONS = 15  # of a solution with factors of the bonds as they were
 
@@ -34,7 +34,7 @@ class Jumps:
     stiffness: float = 0.01
 
     def finer(self, times: float) -> Jumps:
-        """Jumps so many `times` shorter: all three limits over `times`."""
+        """Jumps `times` shorter: all three limits divided by `times`."""
         return Jumps(self.bond / times, self.growth / times, self.stiffness / times)
 
 
@@ -108,7 +108,7 @@ def tire(
 
 
 def _step_that_takes(lost: float, energy: np.ndarray, speed: np.ndarray, damage: np.ndarray) -> float:
-    """Cycles after which bonds have lost so much of their energy (b,) at the motion of now.
+    """Cycles after which bonds of `energy` (b,) [m] have lost `lost` [m] of it, as `damage` (b,) grows by `speed` (b,).
 
     A bond can lose no more than it has: the loss is concave in the cycles, and Newton's method from zero never passes
     the solution. Infinity where it has none.

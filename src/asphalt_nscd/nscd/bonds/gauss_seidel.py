@@ -3,8 +3,8 @@
 The three rows of a bond in the opening operator are its frame T (3, 3) and, for each body, the moments
 of T about the arm a from the body to the bond: U = T u with u = v_j + s_j x a_j - v_i - s_i x a_i.
 Bonds are taken in blocks that share no body: bond by bond within a block or all at once is the same. The last blocks
-hold the bonds of bodies of uneven mobility, as of the head, of which one motion is prescribed. What
-its law still allows a bond to open, b - D R, stands for b: once the bond was visited, it is its opening.
+hold the bonds of bodies whose mobility differs between axes, as of the head, of which one motion is prescribed.
+In place of b stands b - D R, by which the law still lets a bond open; after a visit the bond opens by just that.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from scipy import sparse
 from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, scatter, store, total, zeros
 
-SYMMETRIC = np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2])  # the order of six entries
+SYMMETRIC = np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2])  # rows, columns of six entries
 WINDOW = 256
 """Bonds among which those of a block are looked for: many enough to fill blocks, few enough to keep their order."""
 
@@ -35,6 +35,7 @@ class PackedBonds:
         bodies[bodies < 0] = nobody
         self._mobility = self._rows_by_body(mobility, nobody)
         self._mobility[:, 6:] = self._mobility[:, [0, 3]]
+        # even: both bodies move as easily along any axis, and turn as easily about any
         even = (
             (self._mobility[:, :6] == self._mobility[:, [6, 6, 6, 7, 7, 7]]).all(axis=1)[bodies].all(axis=1)
         )
@@ -92,7 +93,7 @@ class PackedBonds:
 
 
 def _rigid_bonds(operator: sparse.csr_matrix) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(bodies (b, 2), frame (b, 3, 3), arm (b, 2, 3) [m]); the first body is -1 where it is fixed."""
+    """Read from G: (bodies (b, 2), frame (b, 3, 3), arm (b, 2, 3) [m]); the first body is -1 where it is fixed."""
     bonds = operator.shape[0] // 3
     body = operator.indices // 6
     starts = operator.indptr[:-1:3]
@@ -155,7 +156,7 @@ def _lay_out(blocks, frame, law, explicit, reaction, packed):
 
 @compiled
 def _reactions(blocks, frame, packed):
-    """R (3 b,) in the frames of the bonds."""
+    """R (3 b,) in the frames of the bonds, from their lanes in global axes."""
     reaction = np.empty(3 * frame.shape[0])
     for block in range(blocks.shape[0]):
         for lane in range(blocks.shape[1]):
@@ -173,7 +174,7 @@ def _reactions(blocks, frame, packed):
 
 @compiled
 def _apply(bodies, packed, motion, mobility, even):
-    """Let the reactions change the velocities."""
+    """Let the reactions that sweeps start from change the velocities."""
     for block in range(packed.shape[0]):
         i, j = gather(motion, bodies, block, 0), gather(motion, bodies, block, 1)
         arm_i, arm_j = _arms(packed, block)
@@ -186,8 +187,8 @@ def _sweep_until_still(bodies, packed, motion, mobility, even, tolerance, most_s
     """Sweeps to and fro over blocks of bonds until the relative change of the reactions is below tolerance.
 
     bodies (blocks, 2, lanes). packed (blocks, 18, lanes): b - D R and R, six entries of (D + dt G M^-1 G^T)^-1,
-    arms of both bodies. motion and mobility (n, 8): of six degrees of freedom, then the mobility of motion and of
-    spin; all that bodies of the first `even` blocks have. Returns (sweeps, relative change of the last sweep).
+    arms of both bodies. motion and mobility (n, 8): of six degrees of freedom, then the mobilities along any axis and
+    about any axis, which suffice in the first `even` blocks. Returns (sweeps, relative change of the last one).
     """
     change = 0.0
     blocks = packed.shape[0]
@@ -234,7 +235,7 @@ def _arms(packed, block):
 
 @compiled
 def _pushed(motion, mobility, bodies, block, even, pair, reaction):
-    """Motions of both bodies of each bond, (motion, arm) each in `pair`, once `reaction` pushed them apart."""
+    """Motions of both bodies of each bond once `reaction` pushed them apart, also written; pair: (i, arm, j, arm)."""
     i, arm_i, j, arm_j = pair
     dx, dy, dz = reaction
     lx, ly, lz, kx, ky, kz = _mobility_of(i, mobility, bodies, block, even, 0)
@@ -256,7 +257,7 @@ def _pushed(motion, mobility, bodies, block, even, pair, reaction):
 
 @compiled
 def _mobility_of(body, mobility, bodies, block, even, side):
-    """Of six degrees of freedom of the bodies of a block; `body` brings one of motion and one of spin."""
+    """Six mobilities of the bodies on a `side` of a block; where `even`, of the two that their motion `body` brings."""
     if even:
         return body[6], body[6], body[6], body[7], body[7], body[7]
     lx, ly, lz, kx, ky, kz, _, _ = gather(mobility, bodies, block, side)
@@ -265,7 +266,7 @@ def _mobility_of(body, mobility, bodies, block, even, side):
 
 @compiled
 def _opening(i, arm_i, j, arm_j):
-    """u of bodies that move as i and j, velocity first and spin after."""
+    """Opening velocity u of bonds between bodies that move as i and j, velocity first and spin after."""
     ix, iy, iz = _cross((i[3], i[4], i[5]), arm_i)
     jx, jy, jz = _cross((j[3], j[4], j[5]), arm_j)
     return (j[0] - i[0]) + (jx - ix), (j[1] - i[1]) + (jy - iy), (j[2] - i[2]) + (jz - iz)

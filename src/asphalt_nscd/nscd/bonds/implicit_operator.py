@@ -39,7 +39,6 @@ class ShiftedOperator:
     most_updates = 60  # breakages after which a new factorisation is cheaper
 
     def __init__(self, system: BondedSystem, scale: float | np.ndarray) -> None:
-        """scale: dt/S [kg/m], one for all bonds or for each of their components (3 b,)."""
         self._system, self._scale = system, np.broadcast_to(scale, system.weight.shape)
         self._operator = system.operator[:, system.free]
         self._broken: list[int] = []
@@ -63,13 +62,14 @@ class ShiftedOperator:
             self._take_away(bond)
 
     def release(self, impulse: np.ndarray) -> np.ndarray:
-        """What an impulse (3,) of the bond last removed does to the solution (f,), without another solve."""
+        """What an impulse (3,) of the bond last removed does to the solution (f,); a solve only if just factorised."""
         if not self._strength.size:  # factorised without it
             return self._factor.solve(self._operator[3 * self._broken[-1] + np.arange(3)].T @ impulse)
         own = self._responses[:, -3:] @ impulse
         return np.asarray(own + self._responses @ (self._capacitance @ (self._rows @ own)))
 
     def _take_away(self, bond: int) -> None:
+        """Add the three rank-one terms of a bond to the update."""
         rows = 3 * bond + np.arange(3)
         taken, count = self._operator[rows], self._strength.size
         self._response[:, count : count + 3] = self._factor.solve(taken.T.toarray())
@@ -80,7 +80,7 @@ class ShiftedOperator:
 
     @property
     def _responses(self) -> np.ndarray:
-        """(f, 3 n) of the bonds removed since the factorisation."""
+        """Solutions (f, 3 n) for unit forces of the n bonds removed since the factorisation."""
         return self._response[:, : self._strength.size]
 
     def solve(self, force: np.ndarray) -> np.ndarray:
@@ -98,6 +98,7 @@ class ShiftedOperator:
         return solution
 
     def _factorise(self) -> None:
+        """Factorise the matrix without the bonds broken so far, and begin an empty update."""
         system = self._system
         self.weight = system.weight.copy()
         for bond in self._broken:

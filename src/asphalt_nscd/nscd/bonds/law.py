@@ -4,7 +4,8 @@ Steppers know no more of a law than `AnyLaw` and `LawStep` say: its affine law o
 for it. A law with another memory is one class of each.
 
 All bonds share one rheology, or each component of each bond has its own (`BondLaws`). Their geometry
-g [m] (Eqs. 30-33) is divided out: the reaction is R = g sigma, and sigma [Pa] obeys for each component
+g [m] (Eqs. 30-33) is divided out: the reaction is R = g sigma [N], and sigma [N/m], a stress times the length of
+the bond, obeys for each component
 
     sigma = -Em dm,   sigma = -eta_m dm',   sigma = -Ek dk - eta_k dk',   U = dm' + dm'' + dk'
 
@@ -48,12 +49,12 @@ class AnyLaw(ABC):
     def discrete_modulus(self, omega: float, dt: float) -> complex | np.ndarray:
         """Complex modulus [Pa] of the scheme itself at `omega` [rad/s]; dt = 0 gives the exact law.
 
-        Of all bonds, or (3 b,). The scheme replaces i omega by (1 - exp(-i omega dt))/dt.
+        One of all bonds, or (3 b,). The scheme replaces i omega by (1 - exp(-i omega dt))/dt.
         """
 
     @abstractmethod
     def stored(self, strain: Form, one: Stresses, other: Stresses) -> float:
-        """Bilinear form [J] of all springs; half of it at twice the same stresses is what they store."""
+        """Bilinear form [J] of all springs; half of it, with the same stresses twice, is what they store."""
 
     @abstractmethod
     def dissipated(self, strain: Form, sigma: np.ndarray, memory: np.ndarray, rate: np.ndarray) -> float:
@@ -72,25 +73,25 @@ class LawStep(ABC):
 
     @abstractmethod
     def explicit_part(self, sigma: np.ndarray, memory: np.ndarray) -> np.ndarray:
-        """b (...,) [m/s] of U+ = b - S sigma+, from stresses (...,) [Pa] and memory (m, ...) at the start."""
+        """b (...,) [m/s] of U+ = b - S sigma+, from sigma (...,) [N/m] and memory (m, ...) at the start."""
 
     @abstractmethod
     def remembered(self, sigma: np.ndarray, velocity: np.ndarray, memory: np.ndarray) -> np.ndarray:
-        """Memory (m, ...) at the end, from sigma+ [Pa], U+ [m/s] and the memory at the start.
+        """Memory (m, ...) at the end, from sigma+ [N/m], U+ [m/s] and the memory at the start.
 
         The reduced model asks that each variable depends on none of the others: dk+ = decay dk- - gain sigma+ -
         follow U+. Coupled ones are that in the coordinates of their eigenvectors.
         """
 
     def update(self, explicit: np.ndarray, velocity: np.ndarray, memory: np.ndarray) -> Stresses:
-        """State at the end: sigma+ = (b - U+) / S (...,) [Pa] and memory (m, ...), from b, U+ [m/s] and memory."""
+        """State at the end: sigma+ = (b - U+) / S (...,) [N/m] and memory (m, ...), from b, U+ [m/s] and memory."""
         sigma = (explicit - velocity) / self.compliance
         return sigma, self.remembered(sigma, velocity, memory)
 
     def coefficients(self, variables: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """(recall (1 + m,) of sigma- and the memory in b; decay, gain, follow (m,)) of one law for all bonds.
 
-        Found by asking with units, so that a law says them once.
+        Found by giving the law unit stress, velocity and memory, so that it states them once.
         """
         none, unit = np.zeros(1), np.ones(1)
         still, each = np.zeros((variables, 1)), np.eye(variables)
@@ -105,7 +106,7 @@ class LawStep(ABC):
 class _Chains(AnyLaw):
     """What one chain and chains of many bonds have in common."""
 
-    if TYPE_CHECKING:  # fields of a chain, of the other computed
+    if TYPE_CHECKING:  # fields of BondLaw; BondLaws computes them
 
         @property
         def spring(self) -> Any: ...

@@ -27,10 +27,6 @@ class Multigrid:
     """
 
     def __init__(self, matrix: sparse.csc_matrix, modes: np.ndarray) -> None:
-        """matrix (f, f); modes (f, 6): the rigid-body motions of its degrees of freedom, six a body.
-
-        Bodies come one after another; the last may lack some of its six.
-        """
         self._size = matrix.shape[0]
         self._matrix = _body_blocks(matrix)
         bodies = self._matrix.shape[0] // PER_BODY
@@ -69,7 +65,7 @@ class Multigrid:
 
 
 def _body_blocks(matrix: sparse.csc_matrix) -> sparse.bsr_matrix:
-    """A block for each pair of bodies; what the last lacks of its six stands alone on the diagonal."""
+    """The matrix in 6 x 6 blocks, one for each pair of bodies; what the last body lacks of its six stands alone."""
     size, entries = matrix.shape[0], matrix.nnz
     missing = np.arange(-size % PER_BODY)
     rows = matrix.T  # symmetric: its columns are its rows
@@ -90,7 +86,7 @@ def _times(blocks: np.ndarray, columns: np.ndarray) -> np.ndarray:
 
 
 def _aggregated(matrix: sparse.bsr_matrix, modes: np.ndarray) -> Any:
-    """The levels; equal to the bit in each run, though spectral radii are estimated from random vectors."""
+    """Levels of the multigrid; equal to the bit in each run, though spectral radii come from random vectors."""
     import pyamg  # only large systems need it
 
     # pyamg draws from numpy's global state, which is the caller's

@@ -38,9 +38,6 @@ class Statics:
     """
 
     def __init__(self, system: BondedSystem, tolerance: float, enough: int, most: int) -> None:
-        """tolerance: of the residual, relative. The matrix is factorised anew after a solution that took more than
-        `enough` iterations, and within one that took `most`.
-        """
         self.system, self._tolerance, self._enough, self._most = system, tolerance, enough, most
         self._motion = np.zeros(system.mass.size)
         self._motion[system.driven] = 1.0
@@ -66,7 +63,7 @@ class Statics:
         raise ArithmeticError("the static motion was not found")
 
     def _solve(self, weight: np.ndarray, factor: SuperLU | Multigrid) -> tuple[int, int]:
-        """Go on from the last motion; how many iterations that took, and zero where it was enough."""
+        """Go on from the last motion: (iterations taken, zero if they were enough)."""
         system, free = self.system, self.system.free
 
         # by G and not by a matrix: conjugate gradients need products alone, so new weights cost no assembly

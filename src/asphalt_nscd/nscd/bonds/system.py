@@ -26,7 +26,7 @@ class BondedSystem:
     Degrees of freedom (d,): three translations [m] and three rotations [rad] of each moving body. `operator` is G (3 b,
     d), `weight` w (3 b,) in m, `mass` (d,) in kg or kg m2, constant `load` (d,) in N or N m, `gap` (b,) in m,
     `strength` (b,) the yield force in tension and in shear [N]; `friction` acts where the gap of a broken bond closes.
-    `position` (n, 3) in m is for many bodies; `place` (d,) is the place among the six of all bodies (None: the first).
+    `position` (n, 3) [m] of the bodies serves multigrid; `place` (d,) is that among the six of all (None: the first).
     """
 
     operator: sparse.csr_matrix
@@ -104,6 +104,7 @@ def opening_operator(
 
 @compiled
 def _opening_rows(first, second, frame, point, position):
+    """Columns and values (3 b, 12) of the rows of G, six of each body; column -1 for a body that is fixed."""
     bonds = first.shape[0]
     columns = np.full((3 * bonds, 12), -1)
     values = np.zeros((3 * bonds, 12))

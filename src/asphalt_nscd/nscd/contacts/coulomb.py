@@ -106,7 +106,7 @@ def projections(z: np.ndarray, mu: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     across = np.eye(2) - direction[:, :, None] * direction[:, None, :]
     round_cone = mu * height / np.where(tangential > 0.0, tangential, 1.0)
     derivative[:, 1:, 1:] += round_cone[:, None, None] * across
-    # both hold at the tip, where the projection has several generalised derivatives: the identity is one
+    # both hold at the tip (0, 0, 0), where the projection has several generalised derivatives: the identity is one
     point[inside], derivative[inside] = z[inside], np.eye(3)
     point[outside & ~inside], derivative[outside & ~inside] = 0.0, 0.0
     return point, derivative

@@ -27,7 +27,7 @@ def solve_with_couples(
     ease = [np.linalg.norm(among[np.ix_(rows, rows)], 2) for rows in own]
     for _ in range(MOST_ROUNDS):
         held = np.where(following, 0.0, couples)
-        # of a sphere between walls more couples than it can turn: the matrix is singular
+        # a sphere between walls has more couples than ways to turn: the matrix is then singular
         back = crossed[:, following] @ np.linalg.pinv(among[np.ix_(following, following)], hermitian=True)
         under = q[:split] + crossed @ held - back @ (q[split:] + among @ held)[following]
         softer = W[:split, :split] - back @ crossed[:, following].T

@@ -24,8 +24,8 @@ from asphalt_nscd.nscd.contacts.problem import ContactProblem
 def interior_path(problem: ContactProblem, start: float, balance: float) -> Iterator[np.ndarray]:
     """Yield reactions (3 c,) [N s] along an interior path, which ends only where rounding leaves no direction.
 
-    `start` is the size of the first x and y, that of q being one (large: far inside the cones). m does not fall below
-    the share `balance` of |residual| / gap, for the two to vanish together.
+    `start` is the size of the first x and y, that of q being one (large: far inside the cones). Steps aim at no less
+    than the share `balance` |residual| / gap of the gap x . y, for residual and gap to vanish together.
     """
     mu, contacts = problem.friction, problem.friction.size
     diagonal = problem.matrix.diagonal().reshape(-1, 3)

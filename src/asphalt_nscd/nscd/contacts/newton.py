@@ -26,8 +26,8 @@ def refine(
     residual, by_reaction, by_velocity = linearised(problem, r)
     norm = first_norm = np.linalg.norm(weight * residual)
     for step in range(most_steps):
-        # Newton's method is quadratic or of no use: less than 0.7 a step in the mean says that statuses are
-        # wrong
+        # Newton's method is quadratic or of no use: a residual that falls to more than 0.7 of itself a step,
+        # in the mean, says that statuses are wrong
         if max(problem.errors(r)) <= tolerance or (step > 2 and norm > first_norm * 0.7**step):
             return r, step
         # the damping shrinks with the residual, so that the last steps are those of Newton; a hundredfold is

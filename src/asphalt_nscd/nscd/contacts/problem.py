@@ -126,7 +126,7 @@ class ContactProblem:
 
 
 def _contact_blocks(matrix: sparse.csr_array) -> tuple[sparse.bsr_array, np.ndarray, np.ndarray]:
-    """As 3 x 3 blocks in order, W_aa among them even where it is zero; their rows; where the W_aa stand."""
+    """W in sorted 3 x 3 blocks, W_aa even where it is zero; the block row of each; the places (c,) of the W_aa."""
     blocks = sparse.bsr_array(matrix, blocksize=(3, 3))
     contacts = blocks.shape[0] // 3
     row, own = _places(blocks)

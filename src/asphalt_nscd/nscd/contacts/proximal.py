@@ -16,7 +16,7 @@ from asphalt_nscd.nscd.contacts.newton import refine
 from asphalt_nscd.nscd.contacts.problem import ContactProblem
 
 FIRST, LEAST, LARGEST = 0.3, 1e-6, 10.0  # damping d, of the mean of the eigenvalues of W_aa
-EASED, STIFFENED = 0.5, 2.0  # d after a point that was reached, and one that was not
+EASED, STIFFENED = 0.5, 2.0  # factor on d after a point that was reached, after one that was not
 NEAR = 1e-2  # each point is solved to this share of the error of the last
 MOST_SWEEPS = 500  # for each point
 PATIENCE = 60  # points that may pass without the error falling to a half: there may be no solution

@@ -23,7 +23,7 @@ def number_blocks(bodies, begin, count, fixed, workspace, last):
     """Deal contacts begin to begin + count into blocks, numbered from zero, and give how many there are.
 
     workspace.block and workspace.lane then hold where each stands. In `bodies` (c, 2) the first one yields; those from
-    `fixed` on do not, so that contacts of a block may share them. `last` (r,) is this member's room.
+    `fixed` on do not, so that contacts of a block may share them. `last` (r,) is for the last block of each body.
     """
     filled, following = workspace.filled, workspace.following
     for k in range(begin, begin + count):
@@ -93,8 +93,8 @@ def deal_lively(s, begin, count, workspace, last):
 def first_lively(begin):
     """Place in workspace.lively_blocks of the first one of the slab whose contacts begin at `begin`.
 
-    Chains of contacts that share bodies, and full blocks, decide how many blocks there must be; of some contacts of a
-    slab there are no more of either than of all, so that twice the number of its blocks is enough.
+    The longest chain of contacts that share bodies, and full blocks, decide how many blocks there must be. A part of a
+    slab's contacts has no more of either than all of them, so that twice the number of the slab's blocks is enough.
     """
     return begin // WIDTH * 2
 
@@ -137,6 +137,7 @@ def deal_blocks(
 
 @compiled_for_teams
 def _number_slabs(rank, members, barrier, begin, bodies, rows, counts, workspace):
+    """Deal contacts of this member's slabs into `counts` blocks each; planes in `rows` (c, 2) are the slab's own."""
     mark_started(barrier)
     last, first_plane = begin.shape[0] - 2, workspace.wall + 1 - workspace.planes
     # each member's own: in one array members would take cache lines from each other
@@ -156,6 +157,7 @@ def _number_slabs(rank, members, barrier, begin, bodies, rows, counts, workspace
 
 @compiled_for_teams
 def _fill_slabs(rank, members, barrier, begin, pair, rows, slabs, workspace):
+    """Write the contacts of this member's slabs to their lanes; lanes left over hold the body that stays zero."""
     mark_started(barrier)
     last = begin.shape[0] - 2
     for kind in range(3):

@@ -100,8 +100,8 @@ def sweep_blocks(
     """One Gauss-Seidel sweep over blocks begin to begin + count; updates impulses and motion in place.
 
     Contacts whose impulse changes by more than the root of `quiet` [N2 s2], and those that close faster than they may
-    by more than `calm` [m/s], are noted in workspace.lively; row `spare` is for the others. Returns the sums of squares
-    of the change of impulse and of the impulse [N2 s2], the largest violation [m/s], and how many contacts were noted.
+    by more than `calm` [m/s], go into workspace.lively from `noted_from` on; the others into row `spare`. Returns sums
+    of squares of the change of impulse and of the impulse [N2 s2], the largest violation [m/s], how many were noted.
     """
     motion = workspace.motion
     changed, size, fastest = zeros(), zeros(), zeros()
@@ -208,7 +208,7 @@ def sweep_until(
     Sweeps run in rounds. The first of each visits all contacts and decides whether to end; the others visit those whose
     impulse then changed by more than `tolerance` of the root mean square impulse, or that closed faster than they may
     by more than `calm` [m/s]. Sweep AGAIN of a round leaves out those that no longer do. After `enough_sweeps` the
-    tolerance is waived, `calm` never. Gives sweeps of either kind and the last full relative change.
+    tolerance is waived, `calm` never. Gives the number of all sweeps, and the relative change of the last full one.
     """
     begin, last = slabs.begin, slabs.begin.shape[0] - 2
     account, motion = workspace.account, workspace.motion

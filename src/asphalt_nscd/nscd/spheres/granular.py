@@ -229,7 +229,7 @@ def pack_slab(s, slabs, workspace, dt, recovery_speed, allowed_overlap, margin):
 
 @compiled_for_teams
 def rebound(s, slabs, workspace, velocity, restitution):
-    """Targets [m/s] of contacts of slab `s` that would close within the step at `velocity` [m/s], that of its start.
+    """Set targets [m/s] of contacts of slab `s` that would close within the step at the `velocity` [m/s] of its start.
 
     `restitution` is the speed after an impact over that before it (Newton).
     """
@@ -238,9 +238,9 @@ def rebound(s, slabs, workspace, velocity, restitution):
     for block in range(slabs.begin[s], slabs.begin[s + 1]):
         for lane in range(WIDTH):
             i, j = slabs.blocks[block, 1, lane], slabs.blocks[block, 2, lane]
-            if contacts[block, 7, lane] == 0.0:
+            if contacts[block, 7, lane] == 0.0:  # without mass: no contact in this step
                 continue
-            j = j if j <= workspace.wall else j - row + spheres
+            j = j if j <= workspace.wall else j - row + spheres  # the plane whose copy the slab has
             opening = 0.0
             for k in range(3):
                 opening += (velocity[j, k] - velocity[i, k]) * contacts[block, k, lane]

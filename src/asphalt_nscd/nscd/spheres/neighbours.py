@@ -92,9 +92,9 @@ def _partners(rank, members, barrier, bounds, count, spheres, planes, reach, ext
 def closing_speeds(team, position, radius, velocity, reach):
     """Bounds (n,) [m/s] of the speeds at which each sphere and its neighbours within `reach` [m] may close in.
 
-    Only spheres that are not larger count, as in find_pairs. Velocity is bounded within thin horizontal slabs: grains
-    that rain at the same speed, or rest together, do not close in. The sphere's own speed is no better than theirs: an
-    impact may stop it, or hand on all of its own, within the step.
+    Only spheres that are not larger count, as in find_pairs. The bound is the range of velocities, the sphere's own
+    among them, in thin horizontal slabs: grains that rain at the same speed, or rest together, do not close in. Of the
+    range, not of its own: an impact may stop the sphere, or hand on its speed, within the step.
     """
     bound = np.empty(position.shape[0])
     by_height = _speeds_by_height(position, radius, velocity)
@@ -166,6 +166,7 @@ def carry_reactions(team, old_start, old_other, old_reaction, start, other):
 
 @compiled_for_teams
 def _carry(rank, members, barrier, old_start, old_other, old_reaction, start, other, reaction):
+    """Carry reactions to the share of a member in the new list; both lists ascend, so that one pass finds all."""
     mark_started(barrier)
     first, last_pair = partition(rank, members, other.shape[0])
     spheres = start.shape[0] - 1

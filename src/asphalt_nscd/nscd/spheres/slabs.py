@@ -55,8 +55,8 @@ class Workspace(NamedTuple):
     lively: np.ndarray  # (c,) contacts that were noted
     noted: np.ndarray  # (c + slabs + 2, 8) what `contacts` has of each; a spare row for each slab; zeros
     noted_couples: np.ndarray  # (c + slabs + 2, 8) the rest of it; one row where there is none
-    bodies: np.ndarray  # (c, 2) theirs
-    lively_blocks: np.ndarray  # (2 b, 3, 8) in which they stand; see `first_lively`
+    bodies: np.ndarray  # (c, 2) of the noted contacts
+    lively_blocks: np.ndarray  # (2 b, 3, 8) in which noted contacts stand; see `first_lively`
     lively_contacts: np.ndarray  # (2 b, 8 or 11, 8) copies of them
     block: np.ndarray  # (c,) while contacts are dealt: where each stands,
     lane: np.ndarray  # (c,)
@@ -139,7 +139,7 @@ def slabs_of(
 
 @compiled_for_teams
 def _measure(rank, members, barrier, shares, position, start, other):
-    """Least and most of each coordinate in a share of spheres; how far pairs are apart along each."""
+    """Least and most of each coordinate in a share of spheres (two rows); how far pairs are apart along x and y."""
     mark_started(barrier)
     found = np.empty((3, 3))
     found[0], found[1], found[2] = np.inf, -np.inf, 0.0
@@ -158,7 +158,7 @@ def _measure(rank, members, barrier, shares, position, start, other):
 def _deal(
     rank, members, barrier, shares, position, start, other, box, strip, layer, place, begin, pair, bodies
 ):
-    """Pairs into layers of slabs, in the order of the list in each. place (members, layers): zeros."""
+    """Deal pairs into layers of slabs, in the order of the list in each; place (members, (slabs + 1) layers): zeros."""
     mark_started(barrier)
     axis, low, extent, top, strips, last_body = box
     n, slabs = position.shape[0], begin.shape[0] - 2
@@ -170,6 +170,7 @@ def _deal(
         for c in range(start[i], start[i + 1]):
             j = other[c]
             s = min(strip[i], strip[j]) if j < n else strip[i]
+            # several strips of one kind, even or odd, make a slab of that kind
             s = slabs if j == last_body else s // 2 * slabs // strips * 2 + s % 2 if strips > slabs else s
             height = 0.5 * (position[i, 2] + position[j, 2]) if j < n else position[i, 2]
             layer[c] = s * layers + min(int((top - height) / LAYER), layers - 1)

@@ -1,7 +1,8 @@
 """How near bonds come to yield and gaps to closing, bounded while the coordinates stay within an envelope.
 
 An excerpt lists the few bonds that matter and one bound for all others. Whatever that bound cannot settle
-raises `BeyondExcerpt`, so an answer is always that of all bonds.
+raises `BeyondExcerpt`, so an answer is always that of all bonds. Coordinates are those of `reduced_model`, q of motion
+and s of stress, (k,).
 """
 
 from __future__ import annotations
@@ -104,7 +105,7 @@ class BondBounds:
         return np.searchsorted(self.number, bonds)
 
     def excerpt(self) -> tuple[BondBounds, np.ndarray]:
-        """Bounds of the bonds that come first by a coordinate or their gap, and of all others; and which they are."""
+        """Bounds of the bonds that come first by a coordinate or their gap, and of all others; places (m,) of those."""
         chosen = np.zeros(self.number.size, bool)
         leading = [LEADING] * 2 + [OTHERS] * (self.utilised.shape[1] - 2)
         for a, count in enumerate(leading):

@@ -45,6 +45,7 @@ class StandBy:
 
     @classmethod
     def _make(cls, search: _Search, bonds: Sequence[int]) -> StandBy:
+        """Directions of `bonds`, in this order, and their projection."""
         system = search.system
         blocks = [search.directions(bond).astype(np.float32) for bond in bonds]
         directions = np.hstack([np.empty((system.mass.size, 0), np.float32), *blocks])
@@ -79,7 +80,7 @@ class StandBy:
         return cls(**own, projection=Projection(**projection))
 
     def model(self, system: BondedSystem, basis: np.ndarray, broken: list[int]) -> ReducedModel | None:
-        """The reduced model without bonds `broken`; None where a bond has no directions here, or none of its own."""
+        """The reduced model without bonds `broken`; None where a bond has no directions here, or some coincide."""
         places = [np.flatnonzero(self.bonds == bond) for bond in broken]
         if not all(place.size for place in places):
             return None
@@ -136,7 +137,7 @@ class _Network:
     """The bonds under the driven motion at rest, from which one after another is removed."""
 
     def __init__(self, system: BondedSystem, basis: np.ndarray) -> None:
-        """basis (d, k): of columns, the first moves the driven degree of freedom and the others leave it."""
+        """basis (d, k): the first column moves the driven degree of freedom, the others leave it at rest."""
         self._system, self._weight = system, system.weight.copy()
         self._openings = [system.operator @ basis]
         self._stiffness = self._openings[0].T @ (self._weight[:, None] * self._openings[0])

@@ -54,26 +54,27 @@ class CompliantStepper(CondensedStepper):
         return force
 
     def _factorise(self, grip: Grip) -> None:
-        """The tangent at a grip, its contacts stuck."""
+        """Factorise the tangent at a grip, its contacts stuck."""
         own = self.skeleton.stiffness(self.skeleton.overlap - grip.opening[:, 0])
         contacts = self._free.T @ sparse.diags_array(self.dt**2 * own) @ self._free
         self._tangent = factorise((self._films + contacts).tocsc(), self.system)
 
     def _meet_contacts(self, velocity: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Correct the velocity of films alone by the impulses of all contacts."""
+        """(velocity (d,), force (d,) [N] of contacts) in balance, from the velocity of films alone."""
         free, dt = self.system.free, self.dt
         alone = velocity[free]
-        # openings at the end of the step if nothing but the head moved, and by what the rest moves
+        # openings at the end of the step if nothing but the head moved; what the rest moves is added below
         start = self._rows @ (self.state.displacement + dt * velocity) - dt * (self._free @ alone)
 
         def missing(moving: np.ndarray) -> np.ndarray:
-            """By how much velocities (f,) fail, through the tangent: of openings, about the error."""
+            """Newton's step (f,), sign reversed, at velocities (f,) that are not in balance: about their error."""
             reaction, _ = self.grip.moved(self.skeleton, start + dt * (self._free @ moving))
             return np.asarray(
                 self._tangent.solve(self._films @ (moving - alone) - dt * (self._free.T @ reaction))
             )
 
         def size(error: np.ndarray) -> float:
+            """Largest error of an opening [m]."""
             return dt * float(np.abs(self._free @ error).max())
 
         moving = self.state.velocity[free]

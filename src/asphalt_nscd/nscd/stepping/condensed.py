@@ -29,8 +29,8 @@ CLOSED = 1e-12  # m, by which a gap in contact may differ from zero
 class CondensedState:
     """Motion and bond history at one instant; all zero at rest.
 
-    `displacement` (d,) in m or rad, `velocity` (d,) in m/s or rad/s, `sigma` (3 b,) in Pa, `memory` (m, 3 b) is that of
-    the law; `broken` lists bonds in the order in which they broke.
+    `displacement` (d,) in m or rad, `velocity` (d,) in m/s or rad/s, `sigma` (3 b,) in N/m, `memory` (m, 3 b) is that
+    of the law; `broken` lists bonds in the order in which they broke.
     """
 
     displacement: np.ndarray
@@ -64,13 +64,13 @@ class CondensedStepper:
         devices: HeadDevices = RIGID,
         actuator: float = 0.0,
     ) -> None:
-        """actuator: its displacement [m] at `state`."""
         self.system, self.step_law, self.dt, self.state = system, law.step(dt), dt, state
         self.devices, self.actuator = devices, actuator
         # solved, not swept: sweeps that stop at a change of 1e-4 or 1e-5 give 0.3 to 7.6 % of |E*| (Fig. 6)
         self._operator = ShiftedOperator(system, dt / self.step_law.compliance)
         self._operator.remove(state.broken)
         self._loose = np.empty(0)  # velocity (d,) without contacts, of a rigid clamp
+        # what is kept until one more bond breaks, and how many had broken; -1: nothing yet
         self._following = np.empty(0), -1
         self._responses: tuple[dict[int, np.ndarray], int] = {}, -1
         self.on_break: Callable[[list[int]], None] = lambda broken: None
@@ -107,6 +107,7 @@ class CondensedStepper:
             worst = int(np.argmax(utilisation))
             if utilisation[worst] <= 1.0 and exact:
                 break
+            # with a clamp a break changes the velocity of the head too: no short way
             exact = utilisation[worst] <= 1.0 or self.devices.clamp_compliance > 0.0
             if utilisation[worst] > 1.0:
                 state.broken.append(worst)
@@ -162,7 +163,7 @@ class CondensedStepper:
         return self._meet_contacts(self._loose)
 
     def _velocity(self, impulse: np.ndarray, head_velocity: float) -> np.ndarray:
-        """That (d,) under an impulse (d,), of the head given, without contacts."""
+        """Velocity (d,) under an impulse (d,), the head's being given, without contacts."""
         velocity = np.empty_like(impulse)
         velocity[self.system.driven] = head_velocity
         velocity[self.system.free] = self._operator.solve(impulse[self.system.free])

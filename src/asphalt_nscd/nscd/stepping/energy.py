@@ -101,7 +101,7 @@ class EnergyAccount:
     def _stores(
         self, stepper: Any, of: Forms, x: History, y: History, factor: float = 0.5
     ) -> dict[str, float]:
-        """factor times the bilinear form of each store at x and y; the linear one of the load at y."""
+        """`factor` times the bilinear form [J] of each store at x and y; for the load its linear one at y."""
         clamp, spring, _, mass = stepper.devices.head_constants
         one, other = x.values, y.values
         stresses = [(values["sigma"], values["memory"]) for values in (one, other)]

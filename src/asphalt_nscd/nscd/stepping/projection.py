@@ -19,7 +19,7 @@ from asphalt_nscd.nscd.bonds.system import BondedSystem
 class Projection:
     """Small matrices of a system on Phi (d, k), whose column 0 alone moves the driven degree of freedom, by one.
 
-    `mass` in kg, `stiffness` in m, `load` (k,) in N; `residual_factor` (., 2 k + 1 + 3 n) is upper triangular, with a
+    `mass` in kg, `stiffness` in m, `load` (k,) in N; `residual_factor` (r, 2 k + 1 + 3 n) is upper triangular, with a
     column for each component of n removable bonds, whose reaction the last terms of (a, s, 1, reaction) take away;
     `opening` (3 n, k) is their G Phi, `weight` (3 n,) [m] their w. `head_norm` is of what one unit of s_0 asks of the
     driven degree of freedom alone, `load_norm` of f.
@@ -67,7 +67,7 @@ class Projection:
         )
 
     def combined(self, mixing: np.ndarray, removed: np.ndarray) -> Projection:
-        """The projection on Phi `mixing` (k, j) without the removable bonds at places `removed`."""
+        """The projection on the product of Phi and `mixing` (k, j), without the removable bonds at places `removed`."""
         rows = rows_of(removed)
         opening = self.opening[rows]
         reaction = self.weight[rows, None] * opening

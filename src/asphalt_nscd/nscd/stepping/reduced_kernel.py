@@ -21,7 +21,7 @@ from asphalt_nscd.nscd.stepping.reduced_run import (
 
 @compiled
 def take_steps(run):
-    """Step until the end or the first violation: steps taken, code of their end, which of the watched bonds.
+    """Step until the end or the first violation: (steps taken, code of their end, which of the bonds watched for it).
 
     State arrays change in place, step by step; `run.trial` receives v+, s+, q+ of the refused step.
     """
@@ -107,6 +107,7 @@ def take_steps(run):
 
 @compiled
 def _utilisation(reaction, s):
+    """How far stresses s (k,) use up a bond, whose `reaction` (3, k) per unit s is over its strength."""
     normal = tangent = other = 0.0
     for a in range(s.shape[0]):
         normal += reaction[0, a] * s[a]
@@ -130,6 +131,7 @@ def _add_two(total, column, share, scale, other, share_of_other):
 
 @compiled
 def _norm_of_product(columns, vector, rows):
+    """Norm of an upper triangle, given by its `columns`, times `vector`; `rows` is scratch."""
     rows[:] = 0.0
     for b in range(vector.shape[0]):
         upper = min(b + 1, rows.shape[0])

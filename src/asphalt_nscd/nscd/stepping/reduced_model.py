@@ -2,7 +2,7 @@
 
 Since all bonds share one rheology, displacements, velocities, bond stresses and Kelvin
 displacements of the whole specimen live in the span of the same few vectors: u = Phi q,
-sigma = G Phi s, dk = G Phi kappa, whatever the law. The reduced equations are the Galerkin
+sigma = G Phi s [N/m], dk = G Phi kappa [m], whatever the law. The reduced equations are the Galerkin
 projection of the condensed ones and are stepped by the same scheme.
 """
 
@@ -22,7 +22,7 @@ from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.stepping.bond_bounds import BondBounds
 from asphalt_nscd.nscd.stepping.projection import Projection, rows_of
 
-DEPENDENT = 1e-9
+DEPENDENT = 1e-9  # part of a direction that is new, at most, where it is left out
 SHIFT = 1e-2
 """m/kg, S/dt of a typical law: for it, the first step from rest or after a break is exact."""
 
@@ -37,7 +37,7 @@ def shifted_factor(system: BondedSystem) -> SuperLU | Multigrid:
 def ritz_basis(
     system: BondedSystem, iterations: int, shifted: SuperLU | Multigrid | None = None
 ) -> np.ndarray:
-    """Phi (d, 2 + 2 iterations): the static response to the driven motion, then Krylov vectors.
+    """Phi (d, 2 + 2 iterations at most): the static response to the driven motion, then Krylov vectors.
 
     Column 0 has unit motion of the driven degree of freedom; the others leave it at rest. They come from the inertia of
     column 0 and from the constant load by repeated (K + SHIFT M)^-1 M, which `shifted` solves where it stands already.
@@ -155,10 +155,6 @@ class ReducedModel:
         broken: Sequence[int] = (),
         projection: Projection | None = None,
     ) -> None:
-        """basis (d, k): column 0 moves the driven degree of freedom by one, the others leave it.
-
-        projection: that of the system without `broken` on this basis, where it is known already.
-        """
         self.system, self.basis = system, basis
         small = Projection.of(system, basis, broken) if projection is None else projection
         self.mass, self.stiffness, self.load = small.mass, small.stiffness, small.load
@@ -200,7 +196,7 @@ class ReducedModel:
 
 @compiled
 def _contributions(opening, share_of_strength, gap):
-    """Yield measure of each bond, and share of its gap that closes, for each coordinate alone."""
+    """Yield measure of each bond, and share of its gap that closes, for each coordinate alone: (b, k) each."""
     bonds, k = gap.shape[0], opening.shape[1]
     utilised, closed = np.empty((bonds, k)), np.empty((bonds, k))
     for b in range(bonds):

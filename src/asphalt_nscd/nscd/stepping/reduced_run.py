@@ -37,20 +37,20 @@ class ReducedRun(NamedTuple):
     load_norm: float
     tolerance: float  # of the residual, relative
     reaction: np.ndarray  # (c, 3, k) of bonds watched for yield, over their strength
-    beyond_head: np.ndarray  # (c, 2)
+    beyond_head: np.ndarray  # (c, 2) of these, see `BondBounds.head_bounds`
     closing: np.ndarray  # (d, k) of d bonds watched for a closing gap, share of it
     sigma_envelope: np.ndarray  # (k,)
     motion_envelope: np.ndarray  # (k,)
     reached_sigma: np.ndarray  # (k,), written, as all that follow
     reached_motion: np.ndarray  # (k,)
-    maxima: np.ndarray  # (3,)
+    maxima: np.ndarray  # (3,) largest |s_0|, relative residual, utilisation
     q: np.ndarray  # (k,)
     v: np.ndarray  # (k,)
     s: np.ndarray  # (k,)
     memory: np.ndarray  # (m, k)
-    trial: np.ndarray  # (3, k)
+    trial: np.ndarray  # (3, k) v+, s+, q+ of the last step tried
     force: np.ndarray  # (n,) N
-    velocity: np.ndarray  # (n, at most k)
+    velocity: np.ndarray  # (n, at most k): the first coordinates of v
     scratch: np.ndarray  # (5 k + r + 1,), r rows of the residual factor
 
 

@@ -91,7 +91,6 @@ class ReducedStepper:
         devices: HeadDevices = RIGID,
         stand_by: StandBy | None = None,
     ) -> None:
-        """stand_by: directions for breaks, on the basis of `model`; an excerpt brings its own."""
         self.law = law.step(dt)
         if np.ndim(self.law.compliance):
             raise TypeError(
@@ -199,6 +198,7 @@ class ReducedStepper:
         )
 
     def _advance(self, driven: np.ndarray, force: np.ndarray, velocity: np.ndarray) -> tuple[int, int, int]:
+        """(steps taken, code of their end, bond that yields or -1) by the kernel; writes `force` and `velocity`."""
         model, state, law = self._part, self.state, self.law
         self._trial = np.zeros((3, model.size))
         inverse = self._step_inverse()
@@ -256,7 +256,7 @@ class ReducedStepper:
         )
 
     def _widen_envelope(self, sigma: np.ndarray, motion: np.ndarray) -> None:
-        """Far beyond |s| and |q| (k,) if no bond could yield or close there, else to their double."""
+        """Widen the envelope to FAR times |s| and |q| (k,) if no bond could yield or close there, else to twice."""
         s, q = self._outer_envelope(FAR * sigma, FAR * motion)
         # a wide envelope is rarely left, but where bonds come near yield within it they would all be watched
         # in each step

@@ -69,7 +69,7 @@ class Skeleton:
         return (3 * self.bonds[:, None] + np.arange(3)).ravel()
 
     def stiffness(self, overlap: Vector) -> Vector:
-        """Of the components (3 c,) at these overlaps (c,) [m], stuck [N/m]."""
+        """Stiffness (3 c,) [N/m] of the components of stuck contacts at these overlaps (c,) [m]."""
         normal = 2.0 * self.plane_modulus * np.sqrt(self.radius * np.maximum(overlap, 0.0))
         return (normal[:, None] * [1.0, self.sliding, self.sliding]).ravel()
 
