@@ -40,11 +40,11 @@ class LoadCase:
         return 2.0 * np.pi * self.frequency
 
     def actuator(self, time: Vector) -> Vector:
-        """Displacement z (s,) of the actuator at the times (s,) in s [m]."""
+        """Displacement z (s,) [m] of the actuator at the times (s,) [s]; its force [N] where that is commanded."""
         return self.amplitude * np.sin(self.omega * time)
 
     def recorded(self, time: Vector) -> Vector:
-        """Displacement (s,) that the channel records, late by its delay and its phase offset; `time` (s,) in s [m]."""
+        """Displacement (s,) [m] that the channel records at `time` (s,) [s], late by its delay and its phase offset."""
         angle = self.omega * (time - self.rig.channel_delay) - self.rig.phase_offset
         # at rest until the motion arrives at the channel
         return np.where(angle > 0.0, self.amplitude * np.sin(angle), 0.0)
@@ -63,7 +63,7 @@ class LoadCase:
         return numerics.time_step * np.arange(1.0, self.steps(numerics) + 1.0)
 
     def framed(self, numerics: Numerics, count: int) -> NDArray[np.int64]:
-        """The steps (f,) to keep, places in `times`: `count`, evenly over the last cycle, its end included."""
+        """Places (f,) in `times` of the steps to keep: `count`, evenly over the last cycle, its end included."""
         times = self.times(numerics)
         # the instant a whole cycle before the end is the end again: left out, however it rounds
         last = np.flatnonzero(times > times[-1] - (1.0 - 1e-9) / self.frequency)
@@ -71,7 +71,7 @@ class LoadCase:
         return np.unique(last[-1] - np.round(np.arange(count) * last.size / max(count, 1)).astype(int))
 
     def driven(self, numerics: Numerics) -> Vector:
-        """Displacement (rest_steps + s,) of the actuator in every step, those at rest included [m]."""
+        """Displacement (rest_steps + s,) [m] of the actuator in every step, those at rest included."""
         return np.concatenate([np.zeros(numerics.rest_steps), self.actuator(self.times(numerics))])
 
 

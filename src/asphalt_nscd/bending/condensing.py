@@ -24,7 +24,7 @@ KRYLOV_STEPS = 12  # two vectors each; leaves residuals of 1e-8 and below in the
 
 
 def idle_option_note(bonds: Bonds, area: str) -> str:
-    """A sentence on what was chosen of `bonds` and changes nothing in bonds by this area; empty for none."""
+    """A sentence on a chosen option of `bonds` that changes nothing in bonds by this `area`; empty if there is none."""
     name, other = ("poisson", "paper") if area == "facets" else ("kt_over_kn", "facets")
     value = getattr(bonds, name)
     if value == getattr(Bonds(), name):
@@ -42,7 +42,7 @@ def condense(
     excerpt_output: str | Path | None = None,
     stand_by: int | None = None,
 ) -> tuple[int, float, str]:
-    """Condense a specimen to a model file: number of unknowns, static |E*| over the bonds' modulus, area of bonds."""
+    """Condense a specimen to a model file: number of unknowns, static |E*| over the bonds' modulus, kind of area."""
     specimen = read_specimen(specimen_file)
     arrays, attributes = condensed(specimen, Path(specimen_file).stem, bonds, stand_by)
     digest = save(output, "model", arrays, attributes)
@@ -84,7 +84,7 @@ def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None 
         "sphere_height": specimen.position[:, 2],
         **{f"{SHAPE}{name}": values for name, values in _shape(specimen).items()},
     }
-    if not isinstance(shifted, Multigrid):  # by which they cost more than the few breaks they may save
+    if not isinstance(shifted, Multigrid):  # multigrid would take longer than the breaks it may save
         # facets bear stress so evenly that they seldom break: a test in which one does finds its directions
         most = (0 if specimen.area == "facets" else BONDS) if stand_by is None else stand_by
         ready = StandBy.of(system, basis, shifted, most).arrays()

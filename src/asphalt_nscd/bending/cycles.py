@@ -51,7 +51,7 @@ def cycle(model: Model, law: Burgers | KelvinChain, frequency: float, cycling: C
     """One test of a specimen whose grains touch; each step has time_s, force_N and displacement_m, pressing.
 
     `attrs`: E_MPa and phase_deg as they are read, E_stuck_MPa and phase_stuck_deg of the specimen with its contacts
-    stuck, contacts, and energy_error, what the work of the last cycle lacks, over that work.
+    stuck, contacts, and energy_error, the share of the work of the last cycle that is not accounted for.
     """
     chain = bond_law(law)
     skeleton = skeleton_of(model, cycling.pressure_Pa, cycling.skeleton_friction)
@@ -155,6 +155,7 @@ def run_cycles(
         rate = (now.values["memory"] - base.values["memory"]) / stepper.dt
         work -= time_step * forces[n] * state.velocity[head]
         dashpots += time_step * law.dissipated(strain, state.sigma, state.memory, rate)
+        # the account is that of the last cycle
         if n == angle.size - 1 - programme.samples:
             work, dashpots, began = 0.0, 0.0, held(now)
     read = programme.phasor(forces, angle) / programme.phasor(displacement, angle)

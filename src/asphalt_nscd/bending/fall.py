@@ -91,6 +91,7 @@ def _row(world: World) -> dict[str, float]:
 
 
 def _frame(world: World, start: np.ndarray) -> dict[str, np.ndarray]:
+    """Motion of spheres and force of bonds at an instant; displacements are from where the fall began."""
     force = (world.weight * world.sigma).reshape(-1, 3) * [-1.0, 1.0, 1.0]  # tension is positive
     # in single precision: a film needs no more digits, and takes half the room
     return {
@@ -103,6 +104,7 @@ def _frame(world: World, start: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _told(world: World, fall: Fall, sawn: int, speed: float) -> dict[str, Any]:
+    """Attributes of the file: counts, and what became of the energy that the fall set free, in percent."""
     sums = world.energies
     free = -sums.load
     shares = {f"{name}_percent": 100.0 * getattr(sums, name) / free for name in PARTS}

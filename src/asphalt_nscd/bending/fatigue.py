@@ -29,7 +29,7 @@ MOST_CYCLES = 10_000  # one by one
 def largest_strain(geometry: Geometry) -> float:
     """Largest strain of the faces in bending theory, per displacement of the head [1/m].
 
-    The moment F (h - z) over E e w^2 / 6, w the width at z, and F = E z0 / gamma; EN 12697-24 calls it K_eps.
+    The moment F (h - z) over E e w^2 / 6, w the width at z, F = E z0 / gamma by the form factor; EN 12697-24: K_eps.
 
     >>> from asphalt_nscd.measurements.twopoint import PAPER, PAPER_AMPLITUDE
     >>> round(PAPER_AMPLITUDE * largest_strain(PAPER) * 1e6, 1)  # the paper: "less than 50e-6"

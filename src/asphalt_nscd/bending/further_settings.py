@@ -211,7 +211,7 @@ class Fall(Ranged):
 
     @property
     def steps(self) -> int:
-        """How many."""
+        """Number of time steps."""
         return max(1, round(self.duration / self.time_step))
 
 

@@ -61,6 +61,7 @@ def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
         table["E_MPa"], table["E_law_MPa"] = modulus / 1e6, series_of(chain).relaxation_modulus(times) / 1e6
     # bonds of one law show that law times a constant of statics, whose motion is column 0 of the basis
     constant = geometry.form_factor() * static_stiffness(model.system, model.basis[:, 0])
+    # columns 3 and 4: the compliance or modulus of the specimen, and that of the law
     shown = float(table.iloc[-1, 3] / table.iloc[-1, 4])
     off = abs((shown / constant if held.force_N is None else shown * constant) - 1.0)
     table.attrs = {"specimen": model.name, "broken_bonds": len(run.broken), "residual": run.residual}

@@ -31,7 +31,7 @@ class Model:
     """A specimen ready for tests.
 
     `basis` (d, k) is that of the reduced form; `sphere_height` (n,) over the foot in m; `head` is "free" or "blocked";
-    `stand_by` holds directions for breaks; `digest` is that of the file; `shape` as `_shape` gives it.
+    `stand_by` holds directions for breaks; `digest` is that of the file; `shape`: see `condensing._shape`.
     """
 
     system: BondedSystem

@@ -57,6 +57,7 @@ def ramp(
 
     def note() -> None:
         sums, broken = march.account.sums, len(march.stepper.state.broken)
+        # under a commanded force, pieces fly apart once more energy moves than springs hold
         if clamp and broken and sums.kinetic > sums.springs:
             raise InputError(f"the specimen gives way, {broken} of {counted(model.bonds, 'bond')} broke")
         rows.append({"broken_bonds": broken, **{f"energy_{k}_J": v for k, v in asdict(sums).items()}})

@@ -128,6 +128,7 @@ def path_run(
 
 
 def _certified(stepper: ReducedStepper, run: Histories) -> Histories:
+    """Add to a run what its reduced stepper certifies."""
     certificate = stepper.certificate()
     run.residual = certificate.largest_residual
     run.details = {
@@ -265,6 +266,7 @@ def march_along(
         if n in framed:
             full = small.full_state() if small is not None and march.stepper is small else state
             run.frames.append(Frame.of(model, cast("CondensedState", full)))
+        # each twentieth step is told
         if n % 20 == 19 or n + 1 == path.size:
             options.progress(n + 1, path.size)
     run.broken = list(march.stepper.state.broken)

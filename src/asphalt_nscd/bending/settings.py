@@ -45,9 +45,9 @@ class Bonds(Ranged):
     """
 
     head: str = option(default="free", choices=HEADS)
-    # a network then shows 0.16
+    # with 0.35 the network as a whole shows 0.16
     poisson: float = option(default=0.35, above=-1.0, high=0.5)
-    # one is the modulus of the law (facet_network)
+    # with 1 the network has the modulus of the law (facet_network)
     kt_over_kn: float = option(default=1.0, low=1e-4, high=10.0)
     # the paper's, which names no test behind it
     yield_Pa: float = option(default=2.7e6, low=1.0)

@@ -22,5 +22,5 @@ def tared(model: Model) -> Model:
 
 
 def soft_clamp(model: Model, modulus: float) -> float:
-    """Compliance of a clamp by which an actuator commands the force [m/N]; `modulus` of the specimen in Pa."""
+    """Compliance [m/N] of a clamp so soft that the actuator commands the force; `modulus` of the specimen in Pa."""
     return SOFTNESS * model.geometry.form_factor() / modulus
