@@ -14,7 +14,7 @@ from asphalt_nscd.specimen.network import Network
 from asphalt_nscd.specimen.settings import Cutting
 from asphalt_nscd.specimen.trimming import Specimen, trim
 
-# of a deposit, in the specimen; source: of an import
+# what a specimen keeps of the attributes of its deposit; an imported one has a source and no seed
 KEPT = ("seed", "source", "layer_height_m", "solid_fraction")
 
 

@@ -51,8 +51,8 @@ def require_spheres(
 class Overlaps:
     """What touches and overlaps among spheres.
 
-    `touching` (p, 2) holds pairs of spheres; `largest` is the largest overlap [m], `share` the same over the smaller
-    radius, `pair` its two spheres, counted from 1; `count` is the number of pairs that overlap by more than NOTABLE.
+    `touching` (p, 2) holds pairs of spheres; `largest` is the largest overlap [m]; `share` is the largest one over the
+    smaller radius, `pair` its two spheres, counted from 1; `count` pairs overlap by more than NOTABLE.
     """
 
     touching: np.ndarray

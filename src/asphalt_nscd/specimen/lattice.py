@@ -62,6 +62,7 @@ def _place(
     corner: np.ndarray,
     rng: np.random.Generator,
 ) -> np.ndarray:
+    """Random centres (m, 3) [m] in cells cut into parts^3 boxes, each sphere in the box `corner` of its cell."""
     index = np.stack([cells % shape[0], cells // shape[0] % shape[1], cells // (shape[0] * shape[1])], axis=1)
     part = cell / parts
     slack = part - 2.0 * radii[:, None]

@@ -24,7 +24,7 @@ class Network:
 
     `frame` (b, 3, 3) has rows: normal from first to second, two tangents. `point` (b, 3) in m is where the bond acts:
     the middle of the gap, or the centroid of the facet. `gap` and `length` (l0 between barycentres), (b,) in m; `area`
-    (b,) in m2 is pi rmin^2 or the facet; `cell` (n,) in m3 the cells of the spheres, (0,) for bonds without.
+    (b,) in m2 is pi rmin^2 or the facet; `cell` (n,) in m3 the cells of the spheres, (0,) by area "paper".
     """
 
     first: np.ndarray

@@ -23,6 +23,7 @@ FILLED = (
 ON_A_FACE = 1e-9
 NEGLIGIBLE = 1e-6  # of the section of the smaller sphere: a smaller facet is left out
 
+# pairs among the four spheres that meet in a vertex
 _EDGES = np.array([(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)])
 
 

@@ -170,7 +170,7 @@ def unrest(attributes: Mapping[str, Any]) -> str:
 def _stage(
     bed: GranularBed, numerics: PouringNumerics, history: PouringHistory, progress: Progress, name: str
 ) -> dict[str, float]:
-    """Bring the layer into equilibrium; what is said of it then, and of its way there."""
+    """Bring the layer into equilibrium; attributes that describe it then, and its way there."""
     moving, bed.overlap = bed.overlap, 0.0
     weight_balance, unbalanced = balance(bed, numerics, LONGEST_REST, progress, name)
     contacts, gap = bed.contacts(TOUCHING)

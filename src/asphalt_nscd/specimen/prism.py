@@ -62,7 +62,7 @@ def pulled_system(prism: Specimen, weight: np.ndarray) -> BondedSystem:
     return BondedSystem(
         operator=operator[:, kept],
         weight=weight,
-        mass=1e-9 * ones,
+        mass=1e-9 * ones,  # which statics do not use
         load=0.0 * ones,
         driven=6 * n,
         gap=np.maximum(network.gap, 0.0),  # which statics do not use

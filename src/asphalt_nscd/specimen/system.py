@@ -43,7 +43,7 @@ def facet_share(shape: Shape, kt_over_kn: float) -> np.ndarray:
 
 
 def inertia(specimen: Specimen) -> np.ndarray:
-    """Three times the mass [kg] and three times the moment of inertia [kg m2] of each sphere, (n, 6).
+    """Mass [kg] in three columns, and moment of inertia [kg m2] in three, of each sphere (n, 6).
 
     Cells that fill the specimen bear its mass as evenly as its stiffness; spheres of one density do not.
     """
@@ -119,10 +119,10 @@ def bending_system(
 
 
 def _columns(n: int, plates: Sequence[Plate], blocked: bool) -> tuple[np.ndarray, np.ndarray]:
-    """What becomes of the degrees of freedom of n spheres and the plates that move, six each.
+    """What becomes of the degrees of freedom of n spheres and the plates that move, six each; blocked: no plate turns.
 
-    (column, place): of each its number in the system, -1 where it is held, one for all that are driven; and of each
-    in the system where it stands among all. blocked: no plate turns.
+    Returns column, the number of each in the system, -1 where it is held, the same for all that are driven; and place
+    (d,), where each one of the system stands among all.
     """
     motion = np.array([plate.motion for plate in plates])
     if blocked:

@@ -76,7 +76,8 @@ def trim(
         if area == "facets":
             network = facet_network(upright, shrunk, geometry)
         else:
-            # dmin is that before spheres shrink; with 1.93 mm, after it, |E*| is 1.05 of the law, not 1.10
+            # the paper's reach is the smallest diameter, which we take before spheres shrink: |E*| is 1.10 of the
+            # law; taken after it, 1.93 mm, 1.05
             network = bond_network(upright, shrunk, geometry.h, reach)
         kept, joined = held(network, shrunk.size, len(geometry.plates))
         if kept.all():
@@ -97,7 +98,7 @@ def trim(
 
 
 def held(network: Network, n: int, plates: int = 2) -> tuple[np.ndarray, bool]:
-    """Which of the `n` spheres (n,) are held fast by bonds, and whether all plates hang together."""
+    """Whether each of `n` spheres (n,) has FEWEST_BONDS and a chain to the foot; whether bonds join all plates."""
     ends = network.first, network.second
     count = np.bincount(np.concatenate(ends), minlength=n + plates)[:n]
     cluster = clusters(*ends, n + plates)
