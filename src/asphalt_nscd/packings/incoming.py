@@ -112,6 +112,7 @@ def _require_whole(path: Path, position: NDArray[np.float64], radius: NDArray[np
 
 
 def _judge(path: Path, found: Overlaps, notes: list[str], far: bool) -> None:
+    """Refuse overlaps beyond MOST of the smaller radius, and note those beyond NOTABLE."""
     one, other = found.pair
     if found.share > MOST:
         mend = "give a packing at rest of stiffer spheres, and no clumps"

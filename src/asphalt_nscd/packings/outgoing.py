@@ -50,6 +50,7 @@ def _deposit(record: Record, form: str, output: Path) -> str:
 
 
 def _specimen(record: Record, form: str, output: Path) -> str:
+    """Its spheres, and in a file beside them its bonds."""
     _spheres(record, form, output)
     beside = output.with_name(f"{output.stem}{BONDS}{output.suffix}")
     arrays, n = record.arrays, record.arrays["radius"].size
@@ -68,7 +69,7 @@ def _lines(
 ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int8]]:
     """Places (p, 3) [m], lines between them (b, 2), and which lead to a plate (b,), of bonds that act at (b, 3)."""
     n = len(position)
-    # A bond to a plate, body n or n + 1, ends where it acts.
+    # A bond to a plate, body n or above, ends where it acts.
     place, plate = np.concatenate([position, point]), ends >= n
     used, lines = np.unique(np.where(plate, n + np.arange(len(ends))[:, None], ends), return_inverse=True)
     return place[used], lines.reshape(ends.shape), np.asarray(plate.any(axis=1), np.int8)
@@ -124,7 +125,7 @@ def _series(record: Record, output: Path) -> str:
 
 
 def _fall(record: Record, form: str, output: Path) -> str:
-    """Its account of energy over time; or its spheres where they are, and the bonds that are left."""
+    """As csv its account of energy over time; as vtk its spheres where they are, and the bonds that are left."""
     kept = _kept(record)
     if form == "csv":
         history = {name: values for name, values in record.arrays.items() if not name.startswith(FRAMES)}

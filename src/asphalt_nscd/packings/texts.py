@@ -88,6 +88,7 @@ def _table(path: Path, text: str) -> Spheres:
 
 
 def _frame(path: Path, rows: str, names: list[str]) -> pd.DataFrame:
+    """Table of rows of text, with `names` for its columns."""
     separator = r"[,;\t]\s*" if re.search("[,;\t]", rows) else r"\s+"
     if ";" in rows and "," in rows:
         raise InputError(f"{path}: decimals are written with a comma; write them with a point.")
@@ -108,6 +109,7 @@ def _frame(path: Path, rows: str, names: list[str]) -> pd.DataFrame:
 
 
 def _spheres(path: Path, frame: pd.DataFrame, notes: list[str]) -> Spheres:
+    """Spheres from the columns that are understood, all in one unit."""
     columns: dict[str, tuple[str, str | None]] = {}
     for name in frame:
         quantity, unit = _understood(str(name))
