@@ -41,7 +41,7 @@ class Programme:
         return 2.0 * np.pi * np.arange(self.cycles * self.samples + 1) / self.samples
 
     def stress(self, angle: Vector) -> Vector:
-        """(s,) at omega t [rad], of amplitude one."""
+        """Stress (s,) at omega t [rad], of amplitude one."""
         return 1.0 - np.cos(angle) if self.haversine else np.sin(angle)
 
     def phasor(self, signal: Vector, angle: Vector) -> complex:
@@ -71,6 +71,7 @@ def modulus_as_read(
         omega = 2.0 * np.pi * frequency
         angle = programme.angles()
         time, stress = angle / omega, programme.stress(angle)
+        # the stress is mean + Re(turning e^{i omega t})
         mean, turning = (1.0, -1.0 + 0j) if programme.haversine else (0.0, -1j)
         history = _elements(springs, dashpots, strain, mean, turning, omega, time)
         total = stress / chain.spring + history.sum(axis=1)
@@ -88,7 +89,7 @@ def _elements(
     omega: float,
     time: Vector,
 ) -> NDArray[np.float64]:
-    """Strain (n, m) of each Kelvin element [1/Pa], by the closed form above; a spring of zero is a dashpot alone."""
+    """Strain (n, m) [1/Pa] of each element from `start` (m,), by the form above; without spring it is a dashpot."""
     stiffness = springs + 1j * omega * dashpots
     oscillating = (turning * np.exp(1j * omega * time[:, None]) / stiffness).real
     rate = springs / dashpots

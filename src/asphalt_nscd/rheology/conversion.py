@@ -16,7 +16,7 @@ Modulus = Callable[[NDArray[np.float64]], NDArray[np.complex128]]
 
 # a mix takes 11 over four decades to 0.1 %, 14 over six: more is a law that bends too sharply
 MOST_ELEMENTS = 60
-REACH = np.geomspace(0.3, 10.0, 12)  # of the retardation times beyond the band, tried in turn
+REACH = np.geomspace(0.3, 10.0, 12)  # factors by which times reach beyond the band, tried in turn
 OMEGA = Range(low=1e-100, high=1e100)  # rad/s: their products are finite
 FITTED, TESTED = 30, 300  # frequencies in a decade for the fit, and between them for the error
 

@@ -34,9 +34,10 @@ class Fit(Generic[Law]):
     """A fitted law; covariances are those of the logarithms of `parameters` (p,).
 
     `std_error` takes points as independent (scatter common to a specimen is not); None if they do not suffice.
-    `freedom`: two a point less determined parameters. `unseen`: not determined by the points; at a bound or without
-    effect they have no error and are held for the others; `from_prior`: those at a prior's value. `covariance` (p, p),
-    zero without an error; `of_prior` (p, p), what the prior leaves open; `response` (p, 2n) to ln|E*| and phase.
+    `freedom`: two a point less determined parameters. `unseen` are not determined by the points; those at a bound or
+    without effect have no error and are held for the others, those in `from_prior` have a prior's value. `covariance`
+    (p, p) is zero without an error; `of_prior` (p, p) is its part from the prior; `response` (p, 2n) are
+    derivatives of the logarithms by ln|E*| of each point, then by its phase.
     """
 
     law: Law
@@ -62,7 +63,7 @@ class Fit(Generic[Law]):
     def restate(self, points: NDArray) -> Fit[Law]:
         """The same law, with the standard errors that follow from another covariance of the points.
 
-        `points` (2n, 2n) is that of ln|E*|, then of the phase.
+        `points` (2n, 2n) has rows of ln|E*|, then of the phase.
         """
         if self.response is None or self.of_prior is None:
             return self

@@ -146,7 +146,7 @@ class CAM(LawOfModulus):
         return "needs 0 <= E_static_Pa < E_glassy_Pa, and tau_s, v and w above zero"
 
     def _parts(self, log_reduced: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """|E*| [Pa] and its derivative."""
+        """|E*| [Pa] and its derivative by ln(omega) [Pa], at ln(omega tau a_T)."""
         # ln(1 + x^-v) by logaddexp: x^-v overflows at the lowest reduced frequencies
         above = np.exp(-self.w / self.v * np.logaddexp(0.0, -self.v * log_reduced))
         above *= self.glassy_modulus - self.static_modulus

@@ -116,7 +116,7 @@ def _merged(chain: KelvinChain) -> tuple[NDArray[np.float64], NDArray[np.float64
 
 
 def _zero_after(function: Callable[[float], float], start: float, end: float) -> float:
-    """The zero of a function that rises from minus infinity at start to infinity at a finite end, a positive limit else."""
+    """Zero of a function that rises from minus infinity at `start` to infinity at a finite `end`, else to a limit."""
     if start == 0.0:
         # it falls to minus infinity towards the pole, so that some step towards it finds the sign
         low = 1e-3 * (end if np.isfinite(end) else 1.0)

@@ -16,7 +16,7 @@ Vector = NDArray[np.float64]
 Modulus = Callable[[Vector], NDArray[np.complex128]]
 
 MOST_TERMS = 60
-REACH = np.geomspace(0.1, 10.0, 16)  # of the relaxation times beyond the band, tried in turn
+REACH = np.geomspace(0.1, 10.0, 16)  # factors by which times reach beyond the band, tried in turn
 FITTED, TESTED = 12, 60  # frequencies in a decade for the fit, and for the error
 ROUNDS = 8  # of reweighting, which turns least squares towards the least largest error
 NEGLIGIBLE = 1e-9  # of the largest modulus: a branch that least squares left by rounding

@@ -72,6 +72,7 @@ def rivals(omega: Vector, temperature: Vector, modulus: Complex, reference: floa
     largest = float(np.abs(modulus).max())
     for name, law in (("2S2P1D", "2s2p1d"), ("Huet-Sayegh", "huet-sayegh")):
         at = Coordinates(law, "wlf", omega, temperature, largest, reference)
+        # of each group of usual laws those at ln(tau) = -2, 0 and 2, over the middle frequency
         usual = [group[len(group) // 2 - 2 : len(group) // 2 + 3 : 2] for group in at.usual_starts()]
         starts = np.concatenate([*usual, at.random_starts(STARTS)])
         yield Rival(name, _spectrum(at), starts, at.low, at.high)

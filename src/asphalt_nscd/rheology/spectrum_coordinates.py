@@ -38,7 +38,7 @@ MARGIN = 1e-2  # from a bound within which a fitted coordinate lies at it
 SEED = 20200117  # of the random starts; any value, fixed so that a fit can be repeated
 GUESSES = (1.2, 2.0)  # glassy modulus over the largest norm, of the starts from usual values
 SLOPES = (0.08, 0.14, 0.2)  # decades/K of their shifts
-TAUS = np.arange(-12.0, 13.0)
+TAUS = np.arange(-12.0, 13.0)  # ln of tau times the middle frequency, of the starts from usual values
 
 
 class Coordinates:
@@ -59,10 +59,6 @@ class Coordinates:
         reference: float,
         largest_glassy: float = 0.0,
     ) -> None:
-        """omega (n,) [rad/s], temperature (n,) [degC]; largest: norm of E* [Pa]; reference: of the shift [degC].
-
-        largest_glassy [Pa]: up to which a glassy modulus is sought at least.
-        """
         self.law, self.shift, self.reference = LAWS[law], SHIFTS[shift], float(reference)
         self.own, self.of_shift = parameter_names(self.law), parameter_names(self.shift)
         self.names = self.own + self.of_shift
@@ -135,6 +131,7 @@ class Coordinates:
                 yield group
 
     def _usual(self, guess: float, slope: float) -> dict[str, float]:
+        """Coordinates by name of a usual law: `guess` as in GUESSES, `slope` of its shift in decades/K."""
         k, h = USUAL["k"].median, USUAL["h"].median
         out = {
             "static_modulus": -6.0,

@@ -105,6 +105,7 @@ class _Problem:
         self.scatter = 1.0
 
     def residual(self, x: Vector) -> Vector:
+        """Residuals (r,) at coordinates `x` (p,): of ln|E*|, of the phase, and of the prior if there is one."""
         with np.errstate(over="ignore", invalid="ignore"):  # wild trial shifts; such steps are refused
             law = self.coordinates.build(x)
             tests = log_residual(self.modulus, law.complex_modulus(self.omega, self.temperature))
@@ -116,6 +117,7 @@ class _Problem:
         )
 
     def jacobian(self, x: Vector) -> NDArray[np.float64]:
+        """Derivatives (r, p) of `residual` by the coordinates."""
         law, coordinates = self.coordinates.build(x), self.coordinates.log_slopes(x)
         slopes = law.log_slopes(self.omega, self.temperature)
         tests = -np.concatenate([slopes.real, slopes.imag]) / (self.deviations * self.scatter)[:, None]
@@ -127,6 +129,7 @@ class _Problem:
         )
 
     def solve(self, start: Vector, tolerance: float = ROUGH) -> OptimizeResult:
+        """Least squares from one start (p,)."""
         # The coordinates are of order one. Scaled by the Jacobian instead, ten times the steps in a flat valley.
         return least_squares(
             self.residual,
@@ -172,7 +175,7 @@ class _Problem:
         return solution
 
     def scatter_of(self, solution: OptimizeResult, known: bool) -> float:
-        """Of the tests, over their deviations. known: these are the scatter, at least."""
+        """Scatter of the tests over their deviations; one at least where it is `known` that these are it."""
         size = 2 * self.modulus.size
         squares = float(solution.fun[:size] @ solution.fun[:size]) * self.scatter**2
         freedom = max(self.freedom(solution), 1.0)
@@ -199,7 +202,7 @@ class _Problem:
         return seen
 
     def fit(self, known: bool) -> Fit[Spectrum]:
-        """known: whether the deviations are the scatter of the tests, or only its ratios."""
+        """Fit from all starts; `known`: whether the deviations are the scatter of the tests, or only its ratios."""
         if self.prior is None:
             return self.result(self.solve(self.best(self.starts()).x, PRECISE), known)
         self.scatter = 1.0 if known else COARSE
@@ -210,6 +213,7 @@ class _Problem:
         return self.result(self.solve(last.x, PRECISE), known)
 
     def result(self, solution: OptimizeResult, known: bool) -> Fit[Spectrum]:
+        """The fit at a solution: law, standard errors, and which parameters the tests leave open."""
         at, seen, law = self.coordinates, self.seen(solution), self.coordinates.build(solution.x)
         values, freedom = parameters(law), self.freedom(solution)
         variance = None

@@ -60,7 +60,7 @@ class Uncertainty:
     tested: tuple[float, float] = (-np.inf, np.inf)
 
     def half(self, law: Spectrum, omega: NDArray, temperature: NDArray) -> NDArray[np.complex128]:
-        """Half-widths of the 95 % intervals of what the mix has; the misfit of the form counts too.
+        """Half-widths of the 95 % intervals of the E* of the mix; the misfit of the form counts too.
 
         `omega` [rad/s] and `temperature` [degC] are (n,); returns (n,), of ln|E*| and, imaginary, of the phase [rad].
         """
