@@ -12,7 +12,7 @@ TOLD = "ASPHALT_NSCD_COMMIT"  # by a workflow to its jobs, each of which would s
 
 
 def commit() -> str:
-    """The hash, `-dirty` behind it where files were changed since; "unknown" outside of both."""
+    """The hash, `-dirty` behind it where files were changed since; "unknown" if neither packed nor in a repository."""
     if told := os.environ.get(TOLD):
         return told
     packed = PACKAGE / PACKED_FROM
@@ -27,7 +27,7 @@ def commit() -> str:
 
 
 def _git(root: Path, *arguments: str) -> str:
-    """What git says of the repository at `root`: not of one around it, but of one of another user too.
+    """What git says of the repository at `root`, whoever owns it; nothing of a repository around `root`.
 
     It is only read: `describe --dirty` would refresh its index, and leave a lock on a full disk.
     """

@@ -133,6 +133,7 @@ class Table:
         return np.array([self._number(name, row) if text else np.nan for row, text in enumerate(given)])
 
     def _number(self, name: str, row: int) -> float:
+        """The finite number in a cell; InputError with its line for anything else."""
         value = self.columns[name][row]
         if isinstance(value, float) and math.isfinite(value):
             return value

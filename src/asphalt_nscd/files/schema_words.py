@@ -50,6 +50,7 @@ def sentence_on(error: ValidationError, whole: str) -> str:
 
 
 def _wanted(error: ValidationError) -> str:
+    """What a value must be, in words."""
     value = error.validator_value
     return {
         "type": lambda: _TYPES.get(value, value),
@@ -62,6 +63,7 @@ def _wanted(error: ValidationError) -> str:
         "minItems": lambda: f"a list of at least {value}",
         "maxItems": lambda: f"a list of at most {value}",
         "uniqueItems": lambda: "a list without repetitions",
+        # the one pattern of our schemas is that of names
         "pattern": lambda: "letters, digits, - and _, the first a letter",
     }.get(error.validator, lambda: f"{error.validator} {value}")()
 

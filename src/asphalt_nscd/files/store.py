@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # a workflow reads this module beside a Snakemake that may ha
     import pandas as pd
 
 FORMAT_VERSION = 1
+# endings of packings of other programs
 _OF_OTHERS = (".csv", ".tsv", ".txt", ".dump", ".liggghts", ".vtk", ".vtp", ".vtu")
 VERSIONS = "ASPHALT_NSCD_VERSIONS"  # a workflow tells its jobs: to find out takes a tenth of a test
 _PACKAGES = ("asphalt-nscd", "numpy", "scipy", "numba", "pandas", "h5py", "matplotlib", "snakemake")
@@ -211,6 +212,7 @@ def package_versions() -> dict[str, str]:
 
 
 def _digest(kind: str, arrays: Mapping[str, np.ndarray], attributes: Mapping[str, Any]) -> str:
+    """SHA-256 of kind, arrays and attributes, in whatever order these come."""
     import numpy as np
 
     digest = hashlib.sha256(kind.encode())

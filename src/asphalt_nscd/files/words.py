@@ -41,7 +41,7 @@ def capital(words: str) -> str:
 
 
 def numbers(values: Sequence[float], last: str = "and") -> str:
-    """`4, 20 and 40`."""
+    """Numbers in a list: `4, 20 and 40`."""
     return joined([f"{value:g}" for value in values], last)
 
 
