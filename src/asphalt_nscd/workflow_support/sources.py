@@ -84,7 +84,7 @@ def stamp_of_row(folder: str | Path, table: str | Path, key: str, value: float) 
 
 
 def noted(path: Path, content: str, files: Sequence[Path] = ()) -> Path:
-    """Write what stands for `files`, if they are given, unless it stands already; the path."""
+    """Write `content` to `path`, dated as the newest of `files` if there are any, unless it stands there; the path."""
     if not path.is_file() or path.read_text() != content:
         with atomic_path(path) as temporary:
             temporary.write_text(content)
@@ -118,7 +118,7 @@ class _Source:
 
 @cache
 def _read(path: Path, mtime_ns: int) -> _Source:
-    """mtime_ns: as it stood at which moment."""
+    """What a source file means and needs; `mtime_ns`, when it was written, has it read again once that changes."""
     place, content = _place(path), path.read_bytes()
     parsed = _parsed(PACKAGE)
     entry = parsed.get(place)
@@ -132,7 +132,7 @@ def _read(path: Path, mtime_ns: int) -> _Source:
 
 
 def _parse(path: Path, content: bytes) -> list[Any]:
-    """Digest of the syntax tree without docstrings; names that may be modules, each with what else it may be."""
+    """Digest of the syntax tree without docstrings; imported names, each with the module that it may be part of."""
     package = ("asphalt_nscd", *Path(_place(path)).parent.parts)
     imports: set[tuple[str, str]] = set()
     if not path.match("*.py"):
@@ -181,7 +181,7 @@ def _parsed(package: Path) -> dict[str, Any]:
 
 
 def _keep_parsed(kept: Path, parsed: dict[str, Any], before: str) -> None:
-    """For later processes. Where two end together one of them wins, and what it lacks is parsed again."""
+    """Write what was parsed for later processes; of two that end together one wins, and the rest is parsed again."""
     text = json.dumps(parsed)
     if text != before:
         temporary = kept.with_suffix(f".{os.getpid()}")

@@ -67,7 +67,7 @@ class Warm:
     """The warm process whose address is in a folder."""
 
     def __init__(self, folder: str) -> None:
-        self.words: list[str] | None = None  # of the step that this process has become; none of it at the end
+        self.words: list[str] | None = None  # of the step that this fork has become; [] at the end
         self.steps: list[Step] = []
         self.sources: dict[str, int | None] = {}  # when each was written
         self.selector = selectors.DefaultSelector()
@@ -116,6 +116,7 @@ class Warm:
         """Fork for a client that has come, or leave the step to it."""
         client, process, files = self.listening.accept()[0], None, list[int]()
         with suppress(OSError):
+            # as `warm_client` sends it: length of the request, three standard files, request
             size, files, *_ = socket.recv_fds(client, 4, 3)
             request = client.recv(int.from_bytes(size), socket.MSG_WAITALL)
             process = os.fork() if files and self._ready() else None
@@ -198,7 +199,7 @@ def main(folder: str) -> None:
         shutil.rmtree(folder)
         return
     known = {*sys.modules}
-    status = 1
+    status = 1  # stays unless the step ends by sys.exit, as the installed command always does
     try:
         runpy.run_path(sys.argv[0], run_name="__main__")
     except SystemExit as end:

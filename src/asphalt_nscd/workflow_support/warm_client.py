@@ -37,6 +37,7 @@ def stand_for_it(connection: socket.socket) -> None:
 
     for number in PASSED_ON:
         signal.signal(number, pass_on)
+    # nothing comes where the warm process has died: a failure
     ended = int.from_bytes(connection.recv(4) or b"\1", signed=True)
     if ended < 0:
         if -ended in PASSED_ON:
