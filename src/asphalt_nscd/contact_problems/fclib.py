@@ -114,6 +114,7 @@ def read_problem(path: str | Path) -> LocalProblem:
 
 
 def _problem(found: dict[str, np.ndarray]) -> LocalProblem:
+    """The local problem in datasets by name; ValueError or KeyError says why there is none."""
     if any(name.startswith("fclib_global/") for name in found):
         raise ValueError("a global problem (M, H), not a local one (W)")
     if any(name.startswith("fclib_local/R/") for name in found):
