@@ -109,7 +109,7 @@ def label(value: float) -> str:
 
 
 def _convert(study: dict[str, Any], error: ValidationError) -> None:
-    """Make a text that should be a number one, if it can be."""
+    """Turn a text into the number that the schema asks for in its place, if it is one."""
     for part in (error, *error.context):
         if (
             part.validator == "type"
@@ -132,7 +132,7 @@ def _rounded(value: Any) -> Any:
 
 
 def _nearest_alternative(error: ValidationError) -> list[ValidationError]:
-    """What is wrong with the mapping, where mappings are alternatives: of the one that it is nearest to."""
+    """Errors of the alternative mapping that fails by the fewest; none where mappings are no alternatives."""
     alternatives = error.validator_value if error.validator == "anyOf" else ()
     parts = [part for part in error.context if "$ref" in alternatives[part.schema_path[0]]]
     places = [part.schema_path[0] for part in parts]
@@ -153,7 +153,7 @@ def _fill(value: Any, schema: Mapping[str, Any], root: Mapping[str, Any]) -> Non
 
 
 def _settle_origin(study: dict[str, Any], source: str) -> None:
-    """Samples are poured or given; given ones are numbered as if by seeds, from 1."""
+    """Require samples that are poured or given, not both; given ones are numbered from 1, as if by seeds."""
     specimens = study["specimens"]
     if "packings" not in specimens:
         for key in POURED:
@@ -220,7 +220,7 @@ def _check(study: dict[str, Any], source: str) -> None:
 
 
 def _check_geometry(study: dict[str, Any], source: str) -> None:
-    """The simulated specimen is the measured one where that is the same for all, or that of the test named."""
+    """Fill in what is simulated: the measured specimen if that is one for all, or the usual one of the test named."""
     # Modules that need numpy are imported where they are used: Snakemake alone plans a bending study without it.
     kind = study["test"].get("type")
     if "geometry" not in study["specimens"] and kind not in (None, BENDING):
@@ -260,6 +260,7 @@ def _check_geometry(study: dict[str, Any], source: str) -> None:
 
 
 def _leaves(value: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    """(place, value) of each value in nested mappings and lists."""
     if isinstance(value, (dict, list)):
         for key, item in value.items() if isinstance(value, dict) else enumerate(value):
             yield from _leaves(item, (*path, key))

@@ -84,7 +84,7 @@ def _check_time_steps(study: Mapping[str, Any], source: str) -> None:
 
 
 def _check_laws(study: Mapping[str, Any], source: str) -> None:
-    """A law in the table for every temperature, where these laws are simulated or measurements drawn."""
+    """Require a law in the table for every temperature, where these are simulated or measurements drawn from them."""
     path = study["laws"]["published"]["table"]
     with _prefix_errors(f"{source}: laws.published.table"):
         available = read_published(path, study["laws"]["published"]["unit"])[0]
@@ -95,7 +95,7 @@ def _check_laws(study: Mapping[str, Any], source: str) -> None:
 
 
 def _check_measurements(study: Mapping[str, Any], source: str) -> None:
-    """A measurement for every test, and a geometry for every specimen where it is needed."""
+    """Require a measurement for every test, and a geometry for every specimen where it is needed."""
     path = study["measurements"]["table"]
     with _prefix_errors(f"{source}: measurements.table"):
         tests, form = tests_measured(path)
@@ -116,7 +116,7 @@ def _check_measurements(study: Mapping[str, Any], source: str) -> None:
 
 
 def _check_reconstruction(study: Mapping[str, Any], source: str) -> None:
-    """As many tests as a diagnosis needs, and a geometry for every specimen."""
+    """Require as many tests as a diagnosis needs, and a geometry for every specimen."""
     # As `reconstruct` names its specimens.
     names = [str(number + 1) for number in range(study["measurements"]["reconstruct"]["specimens"])]
     frequencies = len(study["frequencies_Hz"])

@@ -26,6 +26,7 @@ def read_schema(path: str | Path = SCHEMA) -> dict[str, Any]:
 
 
 def _completed(rule: Any) -> Any:
+    """A part of the schema, with what the fields state in place of each `option` in it."""
     if isinstance(rule, list):
         return [_completed(part) for part in rule]
     if not isinstance(rule, dict):
