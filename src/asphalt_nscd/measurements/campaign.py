@@ -57,8 +57,8 @@ def isotherms(temperature: NDArray[np.float64], tests: Sequence[Hashable]) -> ND
 def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDArray[np.float64]:
     """Isotherm (n,) [degC] of each row of a table: its target where the table gives one, else by `isotherms`.
 
-    A row without a target takes the nearest one within READINGS_APART, else its own temperature. Targets of two operators that were held at one
-    temperature are one (`_one_target`).
+    A row without a target takes the nearest one within READINGS_APART, else its own temperature. Targets of two
+    operators that were held at one temperature are one (`_one_target`).
     """
     names = ("specimen", "replicate", "frequency_Hz", "amplitude_m", "order", "cycles")
     conditions = list(zip(*(table.columns[name] for name in names if name in table.columns), strict=True))
@@ -77,15 +77,16 @@ def nominal_temperatures(table: Table, temperature: NDArray[np.float64]) -> NDAr
 
 
 def separate_sweeps(nominal: NDArray[np.float64], specimen: NDArray) -> NDArray[np.float64]:
-    """Isotherms (n,) [degC], where a sweep that one specimen alone has is put to the one that it lacks.
+    """Isotherms (n,) [degC]; a sweep at a temperature where its specimen stands alone goes to a near one that it lacks.
 
-    Their temperatures are less than TARGETS_APART from each other, and the specimens have two more in common: the
-    record of the sweep is wrong, or its bath was. Of two single sweeps the rounder temperature is the isotherm's.
+    Near is less than TARGETS_APART, and the specimen was tested beside those there at two temperatures more: the record
+    of the sweep is wrong, or its bath was. Of two sweeps that stand alone the rounder temperature is the isotherm's.
     """
     out = nominal.copy()
     at = {float(t): set(specimen[nominal == t].tolist()) for t in np.unique(nominal)}
 
     def rank(t: float) -> tuple[int, int]:
+        """How many specimens were tested at a temperature, then how few digits it has."""
         return len(at[t]), -len(f"{t:g}".lstrip("-"))
 
     for t, own in at.items():

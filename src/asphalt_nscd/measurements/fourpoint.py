@@ -91,9 +91,9 @@ class Beam(Shape):
         return SHARE_OF_MASS * self.mass + self.mobile_mass
 
     def counted_share(self, poisson: float) -> float:
-        """Share of bending in the static displacement, without shear between outer and inner clamps.
+        """Share of bending in the static displacement; the rest is shear, of F/2 over L/3 from outer to inner clamps.
 
-        F/2 over L/3; k as in `twopoint.bending_share`.
+        k of the shear is that of `twopoint.bending_share`.
         """
         shear = (12.0 + 11.0 * poisson) / 30.0 * self.h / (self.breadth * self.depth)
         return float(self.form_factor() / (self.form_factor() + shear))
@@ -106,7 +106,7 @@ class Beam(Shape):
         return 27.0 / 5.0 * np.where(s < INNER[0], outer, inner)
 
     def usual_amplitude(self) -> float:
-        """Of the inner clamps [m], which strains the outermost fibre by USUAL_STRAIN."""
+        """Amplitude of the inner clamps [m] that strains the outermost fibre by USUAL_STRAIN."""
         # M = F L/6 between the inner clamps: strain F L H/(12 E I) over deflection 5 F L^3/(324 E I) is 5.4 H/L^2.
         return USUAL_STRAIN * self.h**2 / (5.4 * self.depth)
 

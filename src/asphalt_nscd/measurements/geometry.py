@@ -37,10 +37,10 @@ def test_of(mapping: Mapping[str, Any]) -> str:
 
 
 def read_shape(source: str | Path | Mapping[str, Any]) -> Shape:
-    """The specimen to simulate, from a mapping or a JSON file with the keys of one of SHAPES.
+    """The specimen to simulate, from a mapping or a JSON file with the keys of one of SHAPES, or from a CSV table.
 
     The keys say which: d_mm is of a cylinder in tension-compression, L_mm of a prism in four-point bending, b_mm of a
-    trapezoid in two-point bending.
+    trapezoid in two-point bending. Of a table it is the trapezoid in the row called `specimen`.
     """
     if isinstance(source, Mapping):
         return _parse_shape(source, "geometry")
@@ -95,6 +95,7 @@ def require_joined(shape: Shape, area: str) -> None:
 
 
 def _read_geometries(path: str | Path) -> dict[str, Geometry]:
+    """Geometry of each specimen in a CSV table, by its name."""
     table = read_csv(path)
     table.require(["specimen", *LIMITS])
     values = {name: table.numbers(name, limits) for name, limits in LIMITS.items()}
@@ -116,7 +117,7 @@ def _trapezoid(mapping: Any, name: str) -> Geometry:
 
 
 def _parse_shape(mapping: Any, name: str, kind: type[Shape] | None = None) -> Shape:
-    """Of one kind, or of that whose first key the mapping has."""
+    """The shape of `kind`, or else of the kind whose first key the mapping [mm, kg] has; `name` begins a refusal."""
     if not isinstance(mapping, Mapping):
         raise InputError(f"{name}: not a mapping; give {', '.join((kind or Geometry).limits)}.")
     kind = kind or SHAPES[test_of(mapping)]

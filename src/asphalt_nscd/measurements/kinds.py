@@ -2,7 +2,8 @@
 
 BENDING = "bending"  # the paper's test: two-point, of a trapezoid
 PAPER_AMPLITUDE = 63e-6  # m, of a head 250 mm above a foot 56 mm wide
-# By the fitted scheme, of other tests: 0.005 degrees at most at full size, where 50 us of implicit Euler leave 0.11.
+# Steps of a cycle by the fitted scheme, of other tests. At full size it errs by 0.005 degrees of phase at most, and
+# implicit Euler with steps of 50 us by 0.11.
 FITTED_STEPS = 200
 # Tests whose measurements can be diagnosed, as a reader calls them; `geometry.USUAL` has those that can be simulated.
 TEST_TYPES = {

@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from asphalt_nscd.files.csvinput import Limits
 
 # A phase may come out a little negative (a delayed channel does that), so its sign is judged over
-# the whole table, by `measurements`.
+# the whole table, by `reduction`.
 LIMITS = {
     "temperature_C": Limits(
         -80, 120, "give degrees Celsius, or write the unit into the name of the column, as in T (°F) or T (K)"

@@ -35,8 +35,10 @@ PICKED = (
 OF_RECORDS = (*FORMS["peaks"], *FORMS["moduli"], *PICKED)
 REDUCED_COLUMNS = ("specimen", *KEYS, "origin", *OF_RECORDS)
 
-SHARE_LEFT_BY_MASS = 0.3  # of |E*|: in quadrature to the mass term stands its sine, of soft mixes above this
-# No mix below 15 GPa has all its phases under 90/57.3 deg, and none is glassy enough for less than 0.3 deg.
+# Of |E*| without the mass term, which is real: |E*| sin(phase) is left at least, and soft mixes have a sine above this.
+SHARE_LEFT_BY_MASS = 0.3
+# In degrees the largest phase is above pi/2 (the largest in radians) for a mix that has less than 15 GPa somewhere, and
+# above 0.3 for any mix.
 LARGEST_PHASE_AT_LEAST = {"soft": np.pi / 2, "glassy": 0.3}  # deg
 GLASSY = 15e3  # MPa
 
@@ -52,7 +54,7 @@ def reduce_table(
 
     `measurements` is a CSV with `specimen, temperature_C, frequency_Hz`, optionally `origin`, and one of FORMS; paths
     of records are relative to the table. `geometry` is that of `read_geometry`, not looked at for ready moduli.
-    `cycles` is the window for records, None for the last ten seconds.
+    `cycles` is the number at the end of each record that is reduced, None for those of the last ten seconds.
     """
     table = read_csv(measurements)
     frame = reduced_frame(table, geometry, cycles=cycles)
@@ -90,8 +92,8 @@ def reduced_frame(
         else:
             _reduce_records(table, frame, specimens, cycles)
         _check_reduced(table, frame, form)
-        # Without the mass term, which would hide a force a thousand times too small, and which takes
-        # away no more than this from that of a true one.
+        # Judged without the mass term, which would hide a force a thousand times too small; of a true |E*| at least
+        # SHARE_LEFT_BY_MASS is left without it.
         gamma = frame["specimen"].map({name: twopoint.form_factor(g) for name, g in specimens.items()})
         stiffness, softest = 1e-6 * gamma * frame["F0_N"] / frame["z0_m"], SHARE_LEFT_BY_MASS
     _check_stiffness(table, frame, form, stiffness, softest)
@@ -135,7 +137,7 @@ def read_reduced(path: str | Path) -> pd.DataFrame:
 
 
 def _read_keys(table: Table, tests: Sequence[str] = KEYS) -> pd.DataFrame:
-    """Specimen, temperature, frequency and origin of each row, each test once."""
+    """Specimen, columns `tests` and origin of each row; refuses a test that is given twice."""
     table.require(["specimen", *KEYS])
     frame = pd.DataFrame({"specimen": table.text("specimen")})
     for name in tests:
@@ -152,7 +154,7 @@ def _read_keys(table: Table, tests: Sequence[str] = KEYS) -> pd.DataFrame:
 
 
 def _repetition(table: Table, frame: pd.DataFrame, again: NDArray[np.int64]) -> str:
-    """What rows `again` (n,) are, whose specimen and condition earlier rows have, and their mend."""
+    """What to say of rows `again` (n,), which repeat specimen and condition of earlier rows, and how to mend them."""
     rows = pd.Series(frame.index, frame.index)
     earlier = rows.groupby([frame[name] for name in frame]).transform("first").to_numpy()[again]
     names = [name for form in FORMS.values() for name in form if name in table.columns]
@@ -183,7 +185,7 @@ def _repetition(table: Table, frame: pd.DataFrame, again: NDArray[np.int64]) -> 
 
 
 def _form_of(table: Table) -> str:
-    """The form of which columns are present, under whatever unit."""
+    """The one form of FORMS of which columns are there, in whatever unit; refuses none or several."""
     present = [
         form
         for form, names in FORMS.items()
@@ -198,6 +200,7 @@ def _form_of(table: Table) -> str:
 
 
 def _reduce_peaks(table: Table, frame: pd.DataFrame, specimens: dict[str, twopoint.Geometry]) -> None:
+    """Put peaks, and by Eqs. (1)-(5) E_MPa and phase_deg, into `frame`."""
     for name in FORMS["peaks"]:
         frame[name] = table.numbers(name, LIMITS[name])
     for specimen, rows in frame.groupby("specimen").groups.items():
@@ -211,7 +214,7 @@ def _reduce_peaks(table: Table, frame: pd.DataFrame, specimens: dict[str, twopoi
 def _reduce_records(
     table: Table, frame: pd.DataFrame, specimens: dict[str, twopoint.Geometry], cycles: int | None
 ) -> None:
-    """Reduce each record twice: by harmonic least squares, and by peak picking as in the paper."""
+    """Put OF_RECORDS into `frame`, each record reduced twice: by a harmonic fit, and by its peaks as in the paper."""
     reduced = []
     for row, name in enumerate(table.text("record")):
         specimen, frequency = frame.at[row, "specimen"], frame.at[row, "frequency_Hz"]
@@ -264,7 +267,7 @@ def _check_reduced(table: Table, frame: pd.DataFrame, form: str) -> None:
 def _check_stiffness(
     table: Table, frame: pd.DataFrame, form: str, stiffness: pd.Series, softest: float
 ) -> None:
-    """Refuse a row softer [MPa] than any asphalt at its temperature and frequency."""
+    """Refuse a `stiffness` (n,) [MPa] below `softest` times that of any asphalt at its temperature and frequency."""
     least = softest * least_modulus(frame["temperature_C"], frame["frequency_Hz"])
     below = np.flatnonzero(stiffness < least)
     if below.size:

@@ -35,7 +35,7 @@ class Plate:
 
     @property
     def moves(self) -> bool:
-        """Whether anything of it does."""
+        """Whether one of its degrees of freedom is free or driven."""
         return self.motion != (HELD,) * 6
 
 

@@ -112,7 +112,7 @@ class _Window:
 def _window(
     time: ArrayLike, force: ArrayLike, displacement: ArrayLike, frequency: float, cycles: int | None
 ) -> _Window:
-    """Check a record and cut out its last whole cycles."""
+    """The last whole cycles of a record, `cycles` of them or those of WINDOW; refuses one too short or too coarse."""
     time, force, displacement = (np.asarray(v, dtype=float) for v in (time, force, displacement))
     _require_samples(time, force, displacement)
     step = _uniform_step(time)
@@ -141,6 +141,7 @@ def _window(
 
 
 def _require_samples(time: Vector, force: Vector, displacement: Vector) -> None:
+    """Refuse channels that differ in length, hold less than a cycle, are not finite or do not vary."""
     if time.ndim != 1 or not time.shape == force.shape == displacement.shape:
         raise InputError("time, force and displacement differ in length; give all three for every sample.")
     if time.size < SAMPLES_PER_CYCLE:

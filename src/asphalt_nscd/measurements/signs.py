@@ -66,7 +66,7 @@ def negative_phases(table: pd.DataFrame) -> str:
 
 
 def _usual(table: pd.DataFrame, sweep: pd.DataFrame, column: str, value: float) -> bool:
-    """Whether the phases of the other sweeps with this value in a column are usual ones, or there are none."""
+    """Whether the other sweeps with this `value` in `column` have a median phase above LEAST, or there are none."""
     others = table.drop(index=sweep.index)
     phases = others.loc[others[column] == value, "phase_deg"]
     return phases.empty or bool(phases.median() > LEAST)
@@ -77,9 +77,9 @@ def _agrees(turned: float, expected: float) -> bool:
 
 
 def _expected(frequency: Vector, phase: Vector, test: int) -> float | None:
-    """Phase [deg] that the positive ones of a sweep say of one test: between them over ln f, beyond them along a line.
+    """Phase [deg] of one test by the positive phases of its sweep: between them and below straight over ln f.
 
-    Above the highest the line is one over f, as a delay of the force would go on.
+    Above the highest it is straight over f, as a delay of the force goes on, and does not rise. None of fewer than two.
     """
     known = (phase > 0.0) & (frequency != frequency[test])
     at, values = np.unique(frequency[known], return_index=True)

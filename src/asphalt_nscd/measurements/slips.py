@@ -18,12 +18,12 @@ from asphalt_nscd.measurements.units import MEGAPASCAL, celsius_of_fahrenheit
 # What |E*| in another unit is of |E*| in MPa.
 FACTORS = {unit: 1.0 / MEGAPASCAL[unit] for unit in ("psi", "ksi", "GPa", "kPa", "kgf/cm2")}
 NEAR = 0.25  # of ln |E*|: a specimen is within a quarter of the others
-ALIKE = 0.35  # of ln |E*|: how far that ratio may vary over conditions
+ALIKE = 0.35  # of ln |E*|, to either side: how far the ratio to the others may vary over conditions
 STIFFER = np.log(1.8)  # by which no mix grows stiffer as it warms, whatever else is wrong with a test
 # Mean gain of a sweep where every test of it grew stiffer: three times what the level of one wobbles between isotherms.
 STIFFER_OF_ONE = np.log(1.4)  # for one specimen; the mean of several wobbles less
-SURE = 3.0  # standard errors of that mean
-MOST_GAIN = np.log(10.0)  # beyond it a unit is as likely wrong
+SURE = 3.0  # standard errors of the mean gain
+MOST_GAIN = np.log(10.0)  # beyond this gain a unit is as likely wrong
 LEAST_STEP = 3.0  # K between two isotherms that are compared
 LEAST = 3  # shared conditions
 FALLING = (
@@ -63,7 +63,10 @@ def slips(table: pd.DataFrame) -> Iterator[str]:
 
 
 def digit_too_many(table: pd.DataFrame, name: str) -> tuple[int, str] | None:
-    """The row, and a sentence, of a value that no test has, and that its sweep has a tenth or a hundredth of."""
+    """Row, from 0, and a sentence on the first value of column `name` with a digit too many; None if there is none.
+
+    It is above the limits of `name`, and the other frequencies of its sweep ask for a tenth or a hundredth of it.
+    """
     limits, unit = LIMITS[name], name.rpartition("_")[2]
     words = "|E*|" if name == "E_MPa" else "phase"
     inside = table[table[name].between(limits.low, limits.high)]
@@ -106,7 +109,7 @@ def units_of_labels(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _lonely_frequencies(table: pd.DataFrame) -> Iterator[str]:
-    """A frequency in one test of the table, ten or a hundred times the one that its sweep alone lacks."""
+    """A sentence on a sweep with one frequency that no other has, a power of ten times the one that it alone lacks."""
     sweeps = table.groupby(["specimen", "temperature_C"])["frequency_Hz"].agg(set)
     for (specimen, temperature), own in sweeps.items() if len(sweeps) >= LEAST else ():
         others = list(sweeps.drop(index=(specimen, temperature)))
@@ -123,6 +126,7 @@ def _lonely_frequencies(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
+    """Sentences on |E*| that falls as the frequency rises: in all sweeps, else in single ones."""
     sweeps = [(slope, phase) for _, _, slope, phase in _sweeps(table)]
     if not sweeps:
         return
@@ -144,6 +148,7 @@ def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _radians(table: pd.DataFrame) -> Iterator[str]:
+    """A sentence on each sweep whose phases are small as in radians, beside what |E*| requires."""
     for specimen, temperature, slope, phase in _sweeps(table):
         required = 90.0 * slope  # deg, by Kramers and Kronig to first order
         # In radians it is a 57th of itself in degrees: far below what |E*| requires, and near to it once converted.
@@ -155,7 +160,7 @@ def _radians(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _complements(table: pd.DataFrame) -> Iterator[str]:
-    """Phases that are 90 degrees less what they should be: of specimens that differ from another, else of isotherms."""
+    """Sentences on phases given as 90 deg minus the phase: of a specimen, by the other specimens, else of isotherms."""
     seen = pd.DataFrame(_sweeps(table), columns=["specimen", "temperature_C", "slope", "phase_deg"])
     seen["required"] = 90.0 * seen["slope"]
     seen["turned"] = 90.0 - seen["phase_deg"]
@@ -193,7 +198,7 @@ def _complement(where: str, sweeps: pd.DataFrame, who: str) -> str:
 
 
 def _units_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
-    """Isotherms whose |E*| in all specimens, taken as in another unit, makes a smooth course over the temperature."""
+    """A sentence on an isotherm whose mean |E*| falls smoothly between the others only if it is in another unit."""
     logarithm = _pivot_conditions(table).mean(axis=1).unstack(level=0).dropna()
     temperature = logarithm.columns.to_numpy(float)
     if len(logarithm) < 2 or temperature.size < LEAST:
@@ -202,6 +207,7 @@ def _units_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
     degree = 2 if temperature.size > LEAST + 1 else 1
 
     def roughness(values: NDArray[np.float64]) -> float:
+        """Range of a level of ln |E*| (t,) about its parabola or line over the isotherms."""
         return float(np.ptp(values - np.polyval(np.polyfit(temperature, values, degree), temperature)))
 
     tried = [
@@ -226,6 +232,7 @@ def _units_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
+    """Sentences on specimens whose |E*| is to that of the others as in another unit, everywhere or at an isotherm."""
     logarithm = _pivot_conditions(table)
     if logarithm.shape[1] < 2:
         return
@@ -248,7 +255,7 @@ def _units_of_moduli(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _warmer_but_stiffer(table: pd.DataFrame) -> Iterator[str]:
-    """Isotherms at which every specimen is stiffer than at a colder one, at every frequency."""
+    """A sentence on each isotherm at which specimens are surely stiffer than at a colder one, at every frequency."""
     logarithm = _pivot_conditions(table)
     isotherms = logarithm.index.unique(level=0)
     for cold in isotherms:
@@ -285,6 +292,7 @@ def _meant(logarithm: pd.DataFrame, warm: float, cold: float) -> str:
 
 
 def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
+    """A sentence on each specimen that is STIFFER at a warmer isotherm than at a colder one, at every frequency."""
     for specimen, logarithm in _pivot_conditions(table).items():
         rows = logarithm.dropna().unstack(level=0)
         for cold in rows:
@@ -299,7 +307,7 @@ def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _unit_of_all_moduli(table: pd.DataFrame) -> Iterator[str]:
-    """A table whose specimens, each on its coldest isotherm with a slope, are too soft or too stiff for their phase."""
+    """A sentence if |E*| of all specimens, each on its coldest isotherm with a slope, does not fit its phase."""
     glassy, told, done = [], "", set()
     for specimen, temperature, slope, phase in _sweeps(table):
         # In the cold the slope may be scatter, and the next isotherm tells.
@@ -344,14 +352,14 @@ def unit_in_question(table: pd.DataFrame, unit: str) -> str | None:
 
 
 def _possible(table: pd.DataFrame, share: float) -> bool:
-    """Whether |E*| of such a share of the tests is one that mixes have, and of all fits their phases."""
+    """Whether at least `share` of the tests have |E*| as mixes do, and |E*| of the table fits its phases."""
     modulus, most = table["E_MPa"], LIMITS["E_MPa"].high
     least = least_modulus(table["temperature_C"], table["frequency_Hz"])
     return bool(modulus.between(least, most).mean() >= share) and not any(_unit_of_all_moduli(table))
 
 
 def _is_cold_side(tests: pd.DataFrame) -> bool:
-    """Whether a sweep is smooth and the phase falls as the frequency rises; |E*| bends as much if a delay hides it."""
+    """Whether a sweep is smooth, and its phase falls as f rises or, where a delay hides that, ln |E*| bends down."""
     logarithm, modulus = np.log(tests["frequency_Hz"]), np.log(tests["E_MPa"])
     parabola = np.polyfit(logarithm, modulus, 2)
     smooth = np.std(modulus - np.polyval(parabola, logarithm)) < SMOOTH
@@ -376,7 +384,7 @@ def _pivot_conditions(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def _unit(apart: pd.Series) -> str | None:
-    """The unit whose factor these differences of ln |E*| are, if they are one."""
+    """The unit whose ln of FACTORS these differences of ln |E*| are, within NEAR; None if they vary or fit none."""
     if len(apart) < LEAST or apart.max() - apart.min() > 2.0 * ALIKE:
         return None
     near = {unit: abs(apart.median() - np.log(factor)) for unit, factor in FACTORS.items()}
@@ -389,7 +397,7 @@ def _whole(values: NDArray[np.float64]) -> NDArray[np.bool_]:
 
 
 def _short(values: NDArray[np.float64], digits: int = 2) -> NDArray[np.bool_]:
-    """Whether values are numbers of so many digits, to a thousandth."""
+    """Whether each value (n,) is within a thousandth of a number of so many digits."""
     rounded = np.array([float(f"{value:.{digits}g}") for value in values])
     return np.abs(values / rounded - 1.0) < 1e-3
 

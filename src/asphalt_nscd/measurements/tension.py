@@ -82,7 +82,7 @@ class Cylinder(Shape):
         return x / self.h
 
     def usual_amplitude(self) -> float:
-        """Of the upper plate [m] for USUAL_STRAIN."""
+        """Amplitude of the upper plate [m] for USUAL_STRAIN."""
         return USUAL_STRAIN * self.h
 
 

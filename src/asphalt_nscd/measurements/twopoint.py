@@ -107,7 +107,7 @@ class Geometry(Shape):
         return line / line[-1]
 
     def usual_amplitude(self) -> float:
-        """Of the head [m], which strains it as the paper's 63 um strain its specimen: as h^2 / B."""
+        """Amplitude of the head [m] for the strain of the paper's 63 um in its specimen: as h^2 / B."""
         return PAPER_AMPLITUDE * (self.h**2 / self.B) / (PAPER.h**2 / PAPER.B)
 
 
@@ -137,7 +137,7 @@ def form_factor(geometry: Geometry) -> float:
 def bending_share(geometry: Geometry, poisson: float) -> float:
     """Share (0 to 1) of a Timoshenko beam's static deflection that is bending, all that Eq. (3) counts.
 
-    A beam has its modulus E times this by Eqs. (1)-(3). Shear: integral of F / (k G A) over the height, G = E / (2 (1 +
+    Eqs. (1)-(3) find E of a beam times this share. Shear: integral of F / (k G A) over the height, G = E / (2 (1 +
     nu)), k = 10 (1 + nu) / (12 + 11 nu) of a rectangle (Cowper 1966); nu is `poisson`.
 
     >>> round(bending_share(PAPER, 0.35), 3)
