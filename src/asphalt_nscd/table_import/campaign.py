@@ -72,7 +72,8 @@ def read_campaign(
 ) -> tuple[Campaign, str]:
     """The campaign that files and folders hold together, and its form; `test_type` None takes what the files say.
 
-    `chosen` names columns by what they hold; `mix` is the only one to read of a column of mixes.
+    The form is that of `ParsedTable`. `chosen` names columns by what they hold; `mix` is the only one to read of a
+    column of mixes.
     """
     wanted = _Wanted(sheet, chosen or {}, mix)
     notes: list[str] = []
@@ -116,7 +117,7 @@ def read_campaign(
 
 
 def _told_kind(parts: Sequence[Part], lines: Sequence[list[str]], form: str, notes: list[str]) -> str:
-    """The kind of test that files say: machines that export, forces of a bending test, or the name of its scheme."""
+    """The kind of test: axial of exports, bending of forces, else the one that `lines` name; `notes` get the reason."""
     if any(part.block.exported for part in parts):
         way = choice("say --measured-in bending", IN_THE_MENU)
         notes.append(f"a machine export (AMPT, UTM) is taken as an axial test; for bending {way}")
@@ -161,7 +162,7 @@ def _first_lines(path: Path) -> list[list[str]]:
 
 
 def _require_named_specimens(paths: Sequence[Path], parts: Sequence[Part]) -> None:
-    """Refuse exports without a specimen if every file, taken for one, was tested at one of several temperatures."""
+    """Refuse exports that name no specimen and have one temperature a file, not one in all: are they one specimen?"""
     if not parts or not all(part.block.unnamed for part in parts):
         return
     specimens = {part.specimens[0] for part in parts}
@@ -193,14 +194,14 @@ def _require_unit(paths: Sequence[Path], parts: Sequence[Part], table: Table) ->
 
 
 def _isotherm(table: Table) -> NDArray[np.float64]:
-    """Target temperatures (n,) [degC], or those measured."""
+    """Target temperatures (n,) [degC], or where the table has none those measured."""
     return table.numbers_or_nan(
         "nominal_temperature_C" if "nominal_temperature_C" in table.columns else "temperature_C"
     )
 
 
 def _one_mix(parts: Sequence[Part]) -> str:
-    """The mix that all files are of, where they name it."""
+    """The mix that all files are of; empty where none names it, refused where they name several."""
     mixes = {part.read.mix: part.source for part in parts if part.read.mix}
     if len(mixes) > 1:
         named = ", ".join(f"{mix} in {source}" for mix, source in list(mixes.items())[:4])
@@ -217,7 +218,7 @@ def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:
 
 
 def _told_names(path: Path, sheets: list[Sheet], notes: list[str], wanted: _Wanted) -> list[Part]:
-    """Tests of sheets, in words that the user said where the reader does not know them."""
+    """Tests of sheets; where names are not known, those that the user said what they hold are replaced by ours."""
     try:
         return _of_sheets(path, sheets, notes, wanted)
     except UnreadNames as error:
@@ -227,6 +228,7 @@ def _told_names(path: Path, sheets: list[Sheet], notes: list[str], wanted: _Want
 
 
 def _of_sheets(path: Path, sheets: Sequence[Sheet], notes: list[str], wanted: _Wanted) -> list[Part]:
+    """Tests of all sheets by one layout, or else of each sheet by its own; those without tests go into `notes`."""
     if layout := layout_of(sheets):
         return _parts(path, layout, sheets, wanted)
     parts: list[Part] = []
@@ -257,6 +259,7 @@ def _of_sheets(path: Path, sheets: Sequence[Sheet], notes: list[str], wanted: _W
 
 
 def _parts(path: Path, layout: Layout, sheets: Sequence[Sheet], wanted: _Wanted) -> list[Part]:
+    """A part for each block that `layout` reads; refuses a shear modulus, unless the user named the columns."""
     blocks = layout.read(sheets, wanted.columns)
     shear = next((name for block in blocks for name in block.cells.header if is_shear(name)), "")
     if shear and not wanted.columns:
@@ -305,7 +308,7 @@ def _folder(folder: Path, notes: list[str], wanted: _Wanted) -> tuple[list[Part]
 
 
 def _holds_tests(path: Path, sheet: str | None, unreadable: bool = False) -> bool:
-    """Whether a cell of a file names a modulus or a force with its unit; `unreadable` if it cannot be opened."""
+    """Whether a cell of a file names a modulus or a force with its unit; `unreadable` if the file cannot be read."""
     try:
         return any(_names_tests(one.rows) for one in read_sheets(path, sheet))
     except InputError:
@@ -356,7 +359,7 @@ def _called(paths: Sequence[Path]) -> str:
 
 
 def _sources(part: Part) -> list[str]:
-    """Which of the user's columns became which of ours; an export's in one sentence."""
+    """Sentences: which of the user's columns became which of ours; of an export in one."""
     sources = {name: column.source for name, column in part.read.read.items()}
     if not part.block.exported:
         return [f"{name} from column {source}" for name, source in sources.items()]

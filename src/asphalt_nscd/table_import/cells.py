@@ -175,7 +175,7 @@ def _drop_remarks(rows: list[Row], size: int, notes: list[str]) -> list[Row]:
 
 
 def _trimmed(cells: list[str]) -> list[str]:
-    """Cells without needless blanks, up to the last that holds something, and with one kind of minus before a number."""
+    """Cells without needless blanks, up to the last that holds something, with one kind of minus before a number."""
     # Word processors write a minus sign or a dash for a hyphen; `float` takes neither.
     cells = [
         cell if isinstance(cell, Number) else re.sub(r"^[−–](?=[\d.,])", "-", " ".join(cell.split()))
@@ -203,6 +203,7 @@ def _fitted(path: Path, header: list[str], rows: list[Row], notes: list[str]) ->
 
 
 def _text(path: Path) -> tuple[list[Row], list[str]]:
+    """Rows of a text file, parted at its tabs, semicolons or commas, and notes on how it was read."""
     text, notes = _decoded(path)
     lines = io.StringIO(text, newline="").readlines()
     # Before it is parsed, so that the page of `serve` refuses a long text at once.
@@ -241,6 +242,7 @@ def _text(path: Path) -> tuple[list[Row], list[str]]:
 
 
 def _decoded(path: Path) -> tuple[str, list[str]]:
+    """The text of a file, UTF-8, UTF-16 or cp1252, and a note unless it is UTF-8; refuses what is no text."""
     data = path.read_bytes()
     # Excel's "Unicode text" is UTF-16. Its UTF-8 begins with a mark too, which `utf-8-sig` drops.
     codec = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
@@ -327,7 +329,7 @@ def _rows(sheet: Any) -> list[Row]:
 
 
 def _hidden_lines(path: Path, sheet: Any) -> list[str]:
-    """A note on the rows and columns of a sheet that are hidden, as by a filter; refuses rows that are not read."""
+    """A note on the rows and columns of a sheet that are hidden, as by a filter; refuses values beyond MOST_ROWS."""
     # openpyxl knows them only of a sheet that it holds whole.
     with sheet._get_source() as file:
         xml = file.read()
@@ -376,10 +378,11 @@ def _has_far_cell(path: Path) -> bool:
 
 
 def _is_far(records: bytes) -> bool:
-    """Whether a record of a row (kind 0) or of a cell (1 to 11) of a sheet says a place far away ([MS-XLSB] 2.1.4)."""
+    """Whether a row (record of kind 0) or a cell (1 to 11) of a sheet stands beyond what is read ([MS-XLSB] 2.1.4)."""
     at = 0
 
     def number() -> int:
+        """The next number of the records, 7 bits a byte, the lowest first; the top bit says that more follow."""
         nonlocal at
         value = shift = 0
         more = True

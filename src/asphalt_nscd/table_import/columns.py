@@ -36,7 +36,7 @@ def column_cue(wanted: str, name: str) -> str:
 
 
 def _named(wanted: str) -> str:
-    """Begins what is wrong with a choice of a column."""
+    """How a refusal of the column chosen for `wanted` begins; empty on the page."""
     return choice(f"--column {wanted}: ", "")
 
 
@@ -122,7 +122,7 @@ def _agreeing(cells: Cells, name: str, places: list[Place]) -> Place:
     known = [place for place in places if place[1].unit is not None]
 
     def coarseness(place: Place) -> tuple[bool, float]:
-        """The least has our own unit, or else the most digits."""
+        """A key, least for the column in our own unit, and among alike for that of most digits."""
         halves = [_value(row[place[0]], place[1])[1] for _, row in cells.rows]
         return place[1].converts, sum(halves)
 
@@ -155,6 +155,7 @@ def _value(cell: str, meaning: Meaning) -> tuple[float, float]:
 def _contradiction(
     cells: Cells, name: str, places: tuple[Place, Place], line: int, texts: tuple[str, str]
 ) -> InputError:
+    """The refusal of two columns for one quantity that differ in `line`, where they hold `texts`."""
     (first, column), (second, _) = sorted(places)
     a, b = texts if places[0][0] == first else texts[::-1]
     differ = f"in line {line} they hold {a or 'nothing'} and {b or 'nothing'}"
@@ -171,7 +172,7 @@ def _contradiction(
 
 
 def _assumed(cells: Cells, place: Place) -> tuple[Meaning, str]:
-    """Unit of a column that does not say it, where its values leave one only; a modulus never does."""
+    """A column that says no unit with the only one that its values leave, and why; else refused, as any modulus is."""
     at, column = place
     name, quantity = cells.header[at], column.quantity
     values = {value for _, row in cells.rows if (value := number(row[at])) is not None}

@@ -14,7 +14,7 @@ from asphalt_nscd.measurements.units import MEGAPASCAL
 
 LEAST = 4  # tests that must agree
 APART = (
-    4.0  # times the rounding, by which specimens must differ in most tests, so that agreement says something
+    4.0  # times the rounding: measured specimens must differ by more in most tests, or agreement says nothing
 )
 _UNITS = {"E_MPa": tuple(MEGAPASCAL.values()), "phase_deg": (1.0, 180.0 / np.pi)}
 
@@ -89,7 +89,7 @@ def _agrees(
 
 
 def _step(values: NDArray[np.float64], units: Sequence[float]) -> float:
-    """The coarsest decimal step in one of the units of which all values are multiples: twice their rounding."""
+    """Coarsest decimal step, in one of the units, that divides all values: twice their rounding; 0 if none does."""
     values = values[np.isfinite(values)]
     steps = sorted((unit * 10.0**-digits for unit in units for digits in range(7)), reverse=True)
     return next(

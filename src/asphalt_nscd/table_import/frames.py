@@ -39,7 +39,7 @@ def frame_of(campaign: Campaign) -> pd.DataFrame:
 def campaign_of(
     frame: pd.DataFrame, chosen: Mapping[str, str] | None = None, test_type: str | None = None
 ) -> Campaign:
-    """The campaign in a data frame whose columns are named as a file's; the test type is else of `attrs` or bending."""
+    """The campaign in a data frame with columns named as in a file; `test_type` None is that of `attrs`, or bending."""
     header = [str(name) for name in frame.columns]
     texts = [[_cell(value) for value in frame[name]] for name in frame.columns]
     rows = [(line, list(cells)) for line, cells in enumerate(zip(*texts, strict=True), start=1)]

@@ -23,7 +23,6 @@ def grid(frame: pd.DataFrame, path: Path) -> tuple[list[float], list[float], lis
     near = np.diff(frequencies) < LEAST_FREQUENCY_STEP * frequencies[:-1]
     _require_apart(frequencies, near, "frequencies", "Hz", path)
     tested = {t: set(frame.loc[frame["temperature_C"] == t, "frequency_Hz"]) for t in temperatures}
-    # Of the frequencies of each temperature and those that all have; a larger grid of others is not sought.
     sets = [*tested.values(), set.intersection(*tested.values())]
     blocks = [([t for t in temperatures if wanted <= tested[t]], sorted(wanted)) for wanted in sets if wanted]
     kept_t, kept_f = max(blocks, key=lambda block: len(block[0]) * len(block[1]))
@@ -45,6 +44,7 @@ def grid(frame: pd.DataFrame, path: Path) -> tuple[list[float], list[float], lis
 
 
 def _require_apart(values: np.ndarray, near: np.ndarray, what: str, unit: str, path: Path) -> None:
+    """Refuse values (n,), ascending, of which neighbours are `near` (n - 1,)."""
     if near.any():
         place = int(np.flatnonzero(near)[0])
         raise InputError(

@@ -116,7 +116,7 @@ def told_above(rows: Sequence[Row]) -> tuple[dict[str, str], set[int]]:
 
 
 def sections(rows: list[Row]) -> list[list[Row]]:
-    """Rows of a sheet, parted where names of columns come again below lines that say of what."""
+    """Rows of a sheet, parted before lines that say specimen or temperature and, below that, name the columns anew."""
     starts = [0]
     named = [n for n, (_, cells) in enumerate(rows) if _names(cells)]
     for n in (n for n in named[1:] if n - 1 not in named):  # names may go over two lines
@@ -152,7 +152,7 @@ def _names(cells: list[str]) -> bool:
 
 
 def _with_keys_below(names: list[str], cells: list[str]) -> list[str]:
-    """Names of columns, with those of temperature, frequency and specimen that stand a line deeper."""
+    """Names of columns, with those of temperature, frequency and specimen that stand in `cells`, a line deeper."""
     if not _results(names):
         return names
     first = next(n for n, name in enumerate(names) if name and read_heading(name).is_result)
@@ -208,7 +208,7 @@ def _stack(rows: list[Row]) -> _Stack | None:
 
 
 def _alone(one: dict[str, str], said: list[dict[str, str]]) -> dict[str, str]:
-    """Conditions without a text that stands above every column and therefore tells no specimens apart."""
+    """Conditions of a column, without a text for its specimen that all columns have: it tells none apart."""
     texts = {other[SPECIMEN] for other in said if SPECIMEN in other}
     named = len(texts) > 1 or any(SPECIMEN in condition(text) for text in texts)
     return one if named else {key: text for key, text in one.items() if key != SPECIMEN}
@@ -248,7 +248,7 @@ def _is_unit_of(cell: str, name: str) -> bool:
 
 
 def _labels_above(cells: list[str], names: list[str]) -> list[dict[str, str]] | None:
-    """Conditions or specimens that merged cells hold above names; None if more than these stands there."""
+    """By column, condition or specimen that merged cells hold above names; None if anything else stands there."""
     results = [one.quantity for one in map(read_heading, names) if one.is_result]
     several = len(results) > len(set(results))
     axis = ""
@@ -297,6 +297,7 @@ def attach_units(cells: Cells) -> Cells:
 
 
 def _attach_unit_line(cells: Cells) -> Cells:
+    """The table without a line of units, which are put behind the names above; as it is if it has no such line."""
     line, units = cells.rows[0]
     told = [place for place, unit in enumerate(units) if unit not in _NO_UNIT and is_unit(unit)]
     other = [unit for unit in units if unit not in _NO_UNIT and not is_unit(unit)]

@@ -41,9 +41,9 @@ _UNIT_AT_END = re.compile(r"(?P<stem>.*?)\s*(?P<unit>[(\[{][^()\[\]{}]*[)\]}])\s
 
 @dataclass(frozen=True)
 class Heading:
-    """A heading without its conditions, `|E*| (MPa)`, and these.
+    """A heading without its conditions, `|E*| (MPa)`, and the conditions.
 
-    `at` has the conditions by the column that each becomes; `left_out` marks a heading of deviations of other columns.
+    `at` has them by the column that each becomes; `left_out` marks a heading of deviations of other columns.
     """
 
     name: str
@@ -137,7 +137,7 @@ def _taken(text: str, at: dict[str, str]) -> str:
 
 
 def _tidy(text: str) -> str:
-    """Without the marks and empty brackets that a condition leaves behind."""
+    """The text without the marks and empty brackets that a condition leaves behind."""
     return re.sub(r"[(\[]\s*[,;]?\s*[)\]]", " ", text).strip(" ,;:@_-–")
 
 

@@ -31,6 +31,7 @@ class _Header:
     units: dict[str, str] = field(default_factory=dict)
 
     def take(self, cells: Sequence[str]) -> None:
+        """Enter label and value of a line, if it has both and does not name columns."""
         label, *rest = [cell for cell in cells if cell] or [""]
         if _names_columns(cells):
             return
@@ -52,7 +53,7 @@ class _Header:
 
 
 def matches(sheets: Sequence[Sheet]) -> bool:
-    """Whether a sheet is an export: a line of frequencies, results below a header, or a header that lacks them."""
+    """Whether a sheet is an export: a line of frequencies, results below a header, or a header alone."""
     if len(sheets) > 1:
         return False
     header, rows = _Header(), sheets[0].rows
@@ -112,7 +113,7 @@ def _lists(header: _Header, cells: list[str], rows: list[Row]) -> bool:
 
 
 def _frequencies(cells: list[str]) -> list[str]:
-    """Frequencies of a line `, 25 Hz, 10 Hz, ...` or `Frequency (Hz), 25, 10, ...`, in Hz or rad/s; none if another."""
+    """Frequencies of a line `, 25 Hz, 10 Hz, ...` or `Frequency (Hz), 25, 10, ...`, in Hz or rad/s; else none."""
     label, values = cells[0], cells[1:]
     named = quantity_of(label) == "frequency_Hz"
     if (label and not named) or not values or not all(values):

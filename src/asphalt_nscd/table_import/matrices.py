@@ -58,7 +58,10 @@ class _Axis(NamedTuple):
 
 @dataclass
 class _Matrix:
-    """Values, names of temperature and frequency, headings by quantity, and texts that stand in place of one."""
+    """The tests of a matrix: `axes` names temperature and frequency, `names` has the headings by quantity.
+
+    `unknown` are texts that stand in place of a heading, `left_out` labels of means and deviations.
+    """
 
     axes: tuple[str, str]
     names: dict[str, str] = field(default_factory=dict)
@@ -144,7 +147,7 @@ def _matrices(rows: list[Row], called: str) -> list[_Matrix]:
 
 
 def _below(rows: list[Row], called: str) -> Iterator[_Matrix]:
-    """Matrices below each other."""
+    """Matrices below each other; `called` is the name of the sheet, which may say quantity and specimen."""
     at, end, specimen = 0, 0, condition(called).get(SPECIMEN, "")
     title = read_heading(called)
     while at < len(rows):
@@ -228,7 +231,7 @@ def _of_specimens(rows: list[Row]) -> Iterator[_Matrix]:
 
 
 def _height(rows: list[Row], at: int, place: int) -> int:
-    """How many lines of numbers stand below a line of values of an axis; 0 if it is none."""
+    """How many lines of a matrix stand below line `at`, whose axis begins at `place`; 0 if it is no axis."""
     head = rows[at][1]
     values = [cell for cell in head[place:] if cell]
     # Rows of single tests hold numbers below numbers too; a matrix has an axis above them, in order.
@@ -319,7 +322,7 @@ def _axis(cells: Sequence[str]) -> _Axis:
 
 
 def _quantities(above: list[list[str]], head: list[str], place: int) -> dict[int, Heading]:
-    """What the values are, by the column that it begins at; one for all may stand anywhere above, or in the corner."""
+    """Headings by the column where their values begin; one for all may stand anywhere above, or in the corner."""
     for row in reversed(above):
         held = {n: one for n, cell in enumerate(row) if (one := read_heading(cell)).is_result}
         # One that is not known ends that in front of it.

@@ -97,7 +97,7 @@ _Groups = dict[tuple[tuple[str, object], ...], dict[str, int]]
 
 
 def _grouped(cells: Cells, headings: list[Heading], left_out: list[int]) -> _Groups:
-    """Columns by their conditions, and among these by their quantity."""
+    """Places of the columns with conditions, by these and then by quantity; refuses two that have both alike."""
     spread: _Groups = {}
     for n, heading in enumerate(headings):
         if not heading.at or n in left_out:

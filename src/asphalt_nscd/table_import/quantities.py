@@ -166,7 +166,10 @@ def _spelled(unit: str) -> str:
 
 
 def _quantity(stem: str, known: dict, qualified: bool) -> str | None:
-    """qualified: a temperature may carry a further word, as in `T set` beside `T core`."""
+    """Our column for a name without its unit; None if no column or several fit.
+
+    `qualified`: a temperature may carry a further word, as in `T set` beside `T core`.
+    """
     alone = _named(stem, known, qualified)
     if alone:
         return alone
@@ -181,6 +184,7 @@ def _quantity(stem: str, known: dict, qualified: bool) -> str | None:
 
 
 def _named(stem: str, known: dict, qualified: bool) -> str | None:
+    """Our column for words that name one alone; None if none does."""
     if known is MEASURED and (part := _PART.fullmatch(stem.translate(_PRIMES))):
         return "E1_MPa" if part[1] in ("1", "'") else "E2_MPa"
     if qualified:

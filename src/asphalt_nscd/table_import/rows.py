@@ -46,8 +46,8 @@ def tests_in(cells: Cells, places: Mapping[str, int], measured: Sequence[str]) -
         cells = replace(cells, rows=tests)
     specimens = {row[place] for _, row in tests for place in labels}
     for line, row in (*left.get(_REMARK, []), *left.get(_NOT_MEASURED, [])):
-        # Of a second table, which would be taken for more of the first.
-        # Behind the columns that lines above the names gave.
+        # A line that names another specimen begins a second table, which would be taken for more of the first. In front
+        # of it stand the columns, three at most, that lines above the names gave.
         if any(set(told_above([(line, row[start:])])[0].values()) - specimens for start in range(4)):
             raise InputError(
                 f"{cells.path}, line {line}: {' '.join(_filled(row))[:60]!r} stands among the tests; write it into a "
@@ -86,7 +86,7 @@ def _quoted(why: str, rows: list[Row]) -> str:
 
 
 def _carried(cells: Cells, places: Mapping[str, int], names: Sequence[str]) -> Cells:
-    """Each empty cell of these columns with the value above it, where this is the only way to read it."""
+    """The table with the value above in empty cells of columns `names`; refused where that is not the only reading."""
     rows = [(line, list(row)) for line, row in cells.rows]
     notes = list(cells.notes)
     for place in (places[name] for name in names if name in places):

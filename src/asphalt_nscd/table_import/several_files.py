@@ -225,6 +225,7 @@ def _is_later(first: Part, second: Part, test: Test) -> bool:
 
 
 def _repeated(worse: Part, better: Part, tests: list[Test]) -> str:
+    """A note on tests given twice: which part is taken instead of which, and why."""
     specimen, temperature, *_ = tests[0]
     share = f" for {len(tests)} of its {len(worse.tests)} tests" * (len(tests) < len(worse.tests))
     taken = f"{better.source} is taken instead of {worse.source}{share}: "

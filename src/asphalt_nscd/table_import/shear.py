@@ -92,6 +92,7 @@ def _blocks(sheet: Sheet) -> Iterator[Sheet]:
 
 
 def _tables(block: Sheet) -> Iterator[Table]:
+    """Tests of a block as a table of a mix, each point a specimen of its own, so that none repeats another."""
     for one in rows_of_tests.read([block], {}):
         read = understand(_with_points(attach_units(one.cells)), {"specimen": _POINT})
         if read.form != "moduli":

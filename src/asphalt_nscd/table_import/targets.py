@@ -109,6 +109,7 @@ def _unit(header: Header) -> str:
 def _headerless_target(
     path: Path, names: Sequence[str], measured: float | None, notes: list[str]
 ) -> Target | None:
+    """The target that names tell where no header does; None where readings stand for it. Refuses names that differ."""
     told = [(text, said) for text in names if (said := specimen_of(text, None).temperature) is not None]
     if measured is not None:
         for text, said in told:

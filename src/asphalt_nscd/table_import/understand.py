@@ -66,9 +66,10 @@ class Column:
 
 @dataclass(frozen=True)
 class ParsedTable:
-    """A table in our columns and units, how it was read, and the user's columns; `form` is a key of FORMS.
+    """A table in our columns and units, how it was read, and the user's columns.
 
-    `without_phase` tells of tests that were left out for want of a phase; empty if none was.
+    `form` is a key of FORMS, or "modulus" for |E*| without phases; `without_phase` tells of tests that were left out
+    for want of a phase, empty if none was.
     """
 
     table: Table
@@ -241,7 +242,7 @@ def _with_phase(cells: Cells, kept: Mapping[str, Place]) -> tuple[Cells, str]:
 
 
 def _form(cells: Cells, columns: Mapping[str, list[Place]]) -> tuple[str, Sequence[str]]:
-    """Moduli where they are complete, in any of WAYS, else peaks; and the columns with the results."""
+    """The form: moduli where any of WAYS is complete, else peaks, else |E*| alone; and the columns with the results."""
     ways = [*(("moduli", way) for way in WAYS), ("peaks", FORMS["peaks"])]
     lacking = [(form, way, [name for name in (*KEYS, *way) if name not in columns]) for form, way in ways]
     for form, way, names in lacking:
@@ -297,7 +298,7 @@ def _mend(missing: Sequence[str]) -> str:
 
 
 def _require_plain(cells: Cells, missing: Sequence[str]) -> None:
-    """Refuse what stands in place of a quantity that is missing, each with its own mend."""
+    """Refuse a table whose columns are not parted, or hold logarithms, a master curve or several quantities."""
     words = cells.header[0].replace("|", " ").split()  # a name and its unit are two
     if len(cells.header) == 1 and len(words) > 2:
         raise NotTests(
@@ -362,7 +363,7 @@ def _number(cells: Cells, name: str, place: Place, mark: str, n: int) -> float:
 
 
 def _word(cells: Cells, line: int, name: str, text: str) -> str:
-    """Names go into tables that are opened again in spreadsheets, where =, +, - or @ would begin a formula."""
+    """The text of a label; refused if a spreadsheet could take it for a formula, which =, +, - or @ begins."""
     if name == "origin" and text not in ORIGINS:
         raise InputError(f"{cells.path}, line {line}: origin {text!r} is not one of {', '.join(ORIGINS)}.")
     if not re.fullmatch(r"[^\W_][\w .,:/()+#°&%'-]{0,63}", text):
@@ -392,7 +393,7 @@ def _telling(cells: Cells, tests: list[tuple[object, ...]]) -> str:
 
 
 def _specimens(cells: Cells, values: dict[str, Values]) -> str:
-    """Put a specimen to each test, and say how it was told."""
+    """Put the specimen of each test into `values`; a note on how it was told. Refuses tests that nothing parts."""
     note = ""
     if "specimen" not in values and "replicate" in values:
         values["specimen"] = values.pop("replicate")

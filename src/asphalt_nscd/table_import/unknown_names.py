@@ -60,7 +60,7 @@ def with_names(error: InputError, path: Path, sheets: Sequence[Sheet]) -> InputE
 
 
 def named(sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Sheet]:
-    """The sheets with our words for the names that the user chose, wherever these stand; empty if it must not be."""
+    """The sheets with our words for the names that the user chose; empty if one is not there, or has another unit."""
     cells = [cell for sheet in sheets for _, row in sheet.rows for cell in row]
     texts = {cell for cell in cells if not isinstance(cell, Number)}
     ours: dict[str, str] = {}
@@ -104,7 +104,7 @@ def _names(rows: Sequence[Row]) -> Iterator[str]:
 
 
 def _parted(text: str) -> Iterator[tuple[str, str]]:
-    """An unknown name without unit, conditions and number of a specimen, and its unit."""
+    """An unknown name without unit and number of a specimen, and its unit; nothing if it has no unit."""
     for found in _UNIT.finditer(text):
         unit = unit_in(f"x ({next(filter(None, found.groups()), '')})")
         name = _NUMBERED.sub("", text[: found.start()]).strip(" ,;:_-")

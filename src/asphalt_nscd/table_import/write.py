@@ -139,6 +139,7 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
 
 
 def _require_free(name: str, config: Path, folder: Path) -> None:
+    """Refuse a NAME that is not one, is taken, or is no name of a file on Windows."""
     pattern = read_schema()["properties"]["study"]["pattern"]
     # NAME is written bare, and bare `on` or `null` is no text in YAML.
     if not re.fullmatch(pattern.strip("^$"), name) or name in RESERVED or yaml.safe_load(name) != name:
@@ -159,7 +160,7 @@ def study_table(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
     """The columns of a campaign that a study takes, with the temperature of the isotherm, and notes on changes.
 
     A study fits one Burgers law for each isotherm, so that all tests of one must have the same temperature. A replicate
-    of a specimen becomes a specimen of its own. `form` is a key of `FORMS`; "records" must be reduced first.
+    of a specimen becomes a specimen of its own. `form` is "moduli" or "peaks"; "records" must be reduced first.
     """
     table, notes = campaign.table, list(campaign.notes)
     if form == "records":
@@ -183,6 +184,7 @@ def study_table(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
 
 
 def _geometry(form: str, direct: bool, options: StudyOptions) -> Mapping[str, float] | Path:
+    """Geometry of the measured specimens: as given, else the paper's, which counts for moduli alone."""
     if form == "peaks" and direct:
         raise InputError(
             "forces and displacements of a direct test are not reduced here; give moduli, E (MPa) and phi (deg)."
@@ -209,7 +211,7 @@ def _is_cylinder(geometry: Mapping[str, float] | Path | None) -> TypeGuard[Mappi
 
 
 def _simulated(measured: Shape, direct: bool, options: StudyOptions) -> tuple[Shape, str]:
-    """What to simulate, and why: the specimen measured, or the cylinder of direct tests, or a small one of its kind."""
+    """The specimen to simulate, and why: the one measured, the cylinder of direct tests, or a small one of its kind."""
     if options.small:
         return SMALL_CYLINDER if direct else SMALL, "Smaller than measured"
     if _is_cylinder(options.geometry):
@@ -226,6 +228,7 @@ def _spheres(shape: Shape, options: StudyOptions) -> Spheres:
 
 
 def _words(spheres: Spheres, options: StudyOptions) -> str:
+    """How many spheres a study has, and where their sizes come from."""
     coarser = "" if spheres.smallest_mm == SMALLEST_MM else " at twice its sizes"
     origin = f"Table 2 of the paper{coarser}, scaled to the volume of the specimen"
     if options.small:
@@ -239,7 +242,7 @@ def _words(spheres: Spheres, options: StudyOptions) -> str:
 
 
 def _amplitude(measured: NDArray[np.float64] | None, simulated: Shape, small: bool) -> tuple[float, str]:
-    """Of the simulated head [m]: as measured, or giving the strain of the paper's."""
+    """Amplitude of the simulated head [m], and why: the median of those measured, or that of a usual strain."""
     if measured is not None and not small:
         return float(np.median(measured)), "median of those measured"
     why = (
