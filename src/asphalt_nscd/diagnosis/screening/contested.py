@@ -15,19 +15,18 @@ from asphalt_nscd.diagnosis.screening.within_isotherm import SCATTER, blocks
 
 FAR = 6.0  # usual departures of a table, beyond which a test is off the level of its specimen
 ACCUSED = 4.5  # the same in a sweep from which causality takes out tests that are clearly on the level
-NEAR = 0.5  # share of the largest departure of a sweep, below which a test is held to be on the level
-# The same of the others where causality takes out none, and of those it takes out wrongly: what is merely soft or slow
-# departs smoothly.
+NEAR = 0.5  # share of the largest departure of a sweep, up to which a test is held to be on the level
+# The same for a test that is clearly on it. Where causality takes out none, all others must be: what is merely soft or
+# slow departs smoothly.
 CLEARLY_NEAR = 0.35
 LEAST_SPECIMENS = 3  # of two, neither is the odd one
 
 
 def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Which half of a sweep is wrong, by the level that the specimen has on its other isotherms.
+    """Tests (n,) to leave out, and tests (n,) of turned sweeps, of which others are left out than causality says.
 
-    A sweep is turned where causality takes out half of it, only tests on the level of their specimen, or one that is
-    clearly on it, while some others are far off it, and these are no more than half. `out` (n,) is what causality takes
-    out; returns tests (n,) to leave out, and tests (n,) of turned sweeps.
+    `out` (n,) is what causality takes out. A sweep is turned if that is half of it or more, or holds only tests on the
+    level of their specimen, or one clearly on it; and if tests that stay are far off the level, half of it at most.
     """
     now, turned = out.copy(), np.zeros(observed.size, bool)
     block, apart = blocks(observed), _level_distance(observed)
@@ -48,9 +47,9 @@ def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[n
 def masked(observed: Observations, out: NDArray[np.bool_], doubtful: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Tests (n,) to leave out besides: they hide each other in a sweep from which causality takes out none.
 
-    Of four tests it can accuse but one. Two of a sweep at least must be far off the level of their specimen, one of
-    them `doubtful` (causality might accuse it), and all others clearly on it. The worst sweep comes first: what is
-    `out` is no replicate of the others.
+    Of four tests causality can accuse but one. Two of a sweep at least must be far off the level of their specimen, one
+    of them `doubtful` (causality might accuse it), and all others clearly on it. The worst sweep is judged first, since
+    tests left out no longer count for the levels of others, as those that are `out` do not.
     """
     block, found = blocks(observed), np.zeros(observed.size, bool)
     sweeps = [np.flatnonzero(block == one) for one in np.unique(block[doubtful])]
@@ -72,7 +71,7 @@ def masked(observed: Observations, out: NDArray[np.bool_], doubtful: NDArray[np.
 
 
 def _two_stand_out(distance: NDArray[np.float64], doubtful: NDArray[np.bool_]) -> bool:
-    """Whether two tests of a sweep stand out."""
+    """Whether two tests or more, half of a sweep at most, one doubtful, are off the level, and all others clearly on."""
     largest = distance.max()
     off = distance > NEAR * largest
     some = 1 < np.count_nonzero(off) <= distance.size // 2 and bool((off & doubtful).any())
@@ -82,8 +81,8 @@ def _two_stand_out(distance: NDArray[np.float64], doubtful: NDArray[np.bool_]) -
 def _level_distance(observed: Observations, out: NDArray[np.bool_] | None = None) -> NDArray[np.float64]:
     """How far (n,) a test is off the other specimens at its condition, in usual departures of the table.
 
-    What the specimen is off by on its other isotherms, a level and a phase, is taken off first. Zero where no other
-    specimen was tested, or all have a test of the sweep that is out (n,).
+    What the specimen is off by on its other isotherms, a level and a phase, is taken off first. No sweep with a test
+    that is `out` (n,) is held against another. Zero where there is no other specimen, or no other isotherm.
     """
     logarithm = observed.logarithm
     values = np.column_stack([logarithm.real, logarithm.imag])

@@ -90,7 +90,7 @@ def constant_excess(frequency: Vector, mean: NDArray, variance: NDArray) -> tupl
 
 
 def _excess_of(frequency: Vector, tests: NDArray, variance: NDArray) -> _Alike:
-    """Of ln|E*| and phase (s, 2, k) of specimens at k frequencies; `variance` (2, k) of each value."""
+    """Excess of s specimens from ln|E*| and phase [rad] (s, 2, k) at k frequencies [Hz]; `variance` (2, k)."""
     number, _, k = tests.shape
     # the level says nothing of the slope; centred, it costs no digits
     level = tests[:, :1].mean(axis=2, keepdims=True) * np.array([[1.0], [0.0]])
@@ -133,7 +133,7 @@ def _of_specimens(
     frequencies: tuple[float, ...],
     members: dict[int, list[NDArray[np.int64]]],
 ) -> _Alike:
-    """Of specimens with their sweeps, each the rows (k,) of its tests."""
+    """The excess of specimens; `members` has the sweeps of each, a sweep as the rows (k,) of its tests."""
     logarithm = np.array([observed.logarithm[sweeps].mean(axis=0) for sweeps in members.values()])
     variance = [(noise.within[:, sweeps] ** 2).mean(axis=1) / len(sweeps) for sweeps in members.values()]
     tests = np.stack([logarithm.real, logarithm.imag], axis=1)
@@ -141,7 +141,7 @@ def _of_specimens(
 
 
 def _wider(temperature: Vector, isotherms: list[list[_Alike]]) -> Vector:
-    """Variance (t,) of the specimens' excesses over that by single tests: from their scatter, and its prior."""
+    """Factor (t,) on the variance of excesses by single tests, to that of specimens: by their scatter, and a prior."""
     place = (temperature - temperature.min()) / (np.ptp(temperature) or 1.0) - 0.5 * (temperature.size > 1)
     deviation = (mean + spread * NODES for mean, spread in (WIDER, GROWTH))
     size, growth = np.meshgrid(*deviation, indexing="ij")
@@ -156,7 +156,7 @@ def _wider(temperature: Vector, isotherms: list[list[_Alike]]) -> Vector:
 
 
 def _combined(alike: list[_Alike], wider: float) -> tuple[float, float]:
-    """Mean and standard error; what lies outside the band is one unknown, whatever the number of specimens."""
+    """Mean excess and standard error [rad]; what lies outside the band is one unknown, however many the specimens."""
     excess, law, single = np.array([(one.excess, one.law, one.single / one.each.size) for one in alike]).T
     weight = 1.0 / (law + wider * single)
     share = weight / weight.sum()

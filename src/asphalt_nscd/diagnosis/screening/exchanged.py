@@ -60,6 +60,7 @@ def gains(precision: NDArray, pull: NDArray, weighed: NDArray, readings: NDArray
         return 0.5 * moved[..., row] * moved[..., column] * (own[..., first] + own[..., second] - cross)
 
     def along(column: int) -> NDArray:
+        """Change of ln evidence (b, m, p) by one column exchanged."""
         pulled = pull[:, :, column * k : (column + 1) * k]
         return -moved[..., column] * (pulled[..., first] - pulled[..., second]) - half_curvature(
             column, column

@@ -14,13 +14,14 @@ from asphalt_nscd.diagnosis.written import interval_text
 from asphalt_nscd.files.words import specimen_named
 
 EXCHANGED = 0.25  # of ln|E*|, within which two departures are equal and opposite
-ALIKE = 2.0  # factor between the temperatures by |E*| and by phase, within which one error of both is told
+# Factor between an error of a temperature and the step to another, within which their sweeps look exchanged.
+ALIKE = 2.0
 OF_SPECIMEN = "its gauges, channels and mounting"
 ONE_MIX = 25.0  # percent by which specimens of one mix hardly differ; T 378 expects some 13
 
 
 def rows(observed: Observations, found: Iterable[Mapping[str, Any]]) -> NDArray[np.bool_]:
-    """Rows (n,) of sweeps and specimens."""
+    """Tests (n,) of the sweeps, and of the specimens as a whole (temperature_C None), that were found odd."""
     out = np.zeros(observed.size, bool)
     for one in found:
         here = observed.specimen == observed.names.index(one["specimen"])

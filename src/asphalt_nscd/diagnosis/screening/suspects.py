@@ -203,7 +203,7 @@ def broken_isotherms(
 
 
 def _contradicts(difference: NDArray, error: NDArray) -> bool:
-    """Whether phases (k,) depart from those required, as a whole, by more than the error that they share [deg]."""
+    """Whether phases (k,) lie, in the mean, further from those required than the error that they share; both [deg]."""
     return difference.size > 0 and bool(abs(difference.mean()) > max(TORN_APART * error.mean(), TORN_LEAST))
 
 
@@ -257,6 +257,7 @@ def table(observed: Observations, record: pd.DataFrame, loo: LooPrediction) -> p
 
 
 def _broken_temperatures(observed: Observations, loo: LooPrediction) -> NDArray[np.float64]:
+    """Isotherms [degC] whose phase departs smoothly by more than 1 deg, with a probability above BROKEN."""
     block = within_isotherm.blocks(observed)
     broken = []
     for temperature in observed.isotherms:
@@ -271,7 +272,7 @@ def _broken_temperatures(observed: Observations, loo: LooPrediction) -> NDArray[
 
 
 def _singled_out(observed: Observations) -> list[list[str]]:
-    """Limits of the standard that a test exceeds and most others of its isotherm and specimen do not."""
+    """For each test, sentences on limits of the standard that it exceeds and most others of its sweep do not."""
     block = within_isotherm.blocks(observed)
     sentences: list[list[str]] = [[] for _ in range(observed.size)]
     above = quality.exceeded(observed)
@@ -331,6 +332,7 @@ def _decimal_slip(observed: Observations, row: int, expected: float) -> str:
 
 
 def _causal_reason(observed: Observations, loo: LooPrediction, row: int, column: int) -> str:
+    """The value that the other frequencies ask for: of |E*| (`column` 0) or of the phase (1)."""
     expected, error = loo.expected[row, column], loo.std_error[row, column]
     if column == 0:
         modulus = abs(observed.modulus[row])
@@ -367,6 +369,7 @@ def _exchange_reason(observed: Observations, one: Exchange) -> str:
 
 
 def _replicate_reason(observed: Observations, apart: NDArray, row: int, column: int) -> str:
+    """By how much |E*| (`column` 0) or the phase (1) is off its replicates."""
     others = np.count_nonzero(observed.cell == observed.cell[row]) - 1
     size = (
         f"{100.0 * abs(apart[row, 0]):.1f} %" if column == 0 else f"{np.degrees(abs(apart[row, 1])):.1f} deg"

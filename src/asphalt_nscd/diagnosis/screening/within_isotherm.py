@@ -53,10 +53,11 @@ ASIDE = 100.0  # variance that takes a value out
 class LooPrediction:
     """What the isotherms say of each value; columns 0 and 1 are ln|E*| and phase [rad].
 
-    `judged`: of tests enough; `expected`, `std_error` (n, 2): by the rest of the isotherm, with the scatter of one
-    test; `chance` (n, 3): of a departure as large in ln|E*|, phase, or both, neither asked for the other; `required`
-    (n,): phase by |E*| alone [rad]; `log_evidence` (n, 4, 5): of each ripple and bend; `delay` between channels [s],
-    which `expected` holds. If readings were `exchanged`, everything else is of the readings put right.
+    `judged` (n,): whether the isotherm has LEAST tests; `expected`, `std_error` (n, 2): by the rest of the isotherm,
+    with the scatter of one test; `chance` (n, 3): of a departure as large in ln|E*|, phase, or both, neither asked for
+    the other; `required`, `required_error` (n,): phase by |E*| alone [rad]; `log_evidence` (n, 4, 5): of each ripple
+    and bend; `scatter` (n, 2): of one test; `delay` between channels [s], which `expected` holds. If readings were
+    `exchanged`, everything else is of the readings put right.
     """
 
     judged: NDArray[np.bool_]
@@ -78,7 +79,7 @@ class LooPrediction:
 
 @dataclass(frozen=True)
 class _Group:
-    """Isotherms (b, k) of equal frequencies, by rows; prior covariance (m, 2k, 2k) of each ripple and bend."""
+    """b isotherms of k equal frequencies: rows (b, k) of tests, prior covariance (m, 2k, 2k) by ripple and bend."""
 
     rows: NDArray[np.int64]
     covariance: NDArray
@@ -110,6 +111,7 @@ class _Table:
         self.weights = np.tile(np.log(np.multiply.outer(WEIGHTS, BEND_WEIGHTS)), (n, 1, 1))
 
     def leave_one_out(self) -> LooPrediction:
+        """Each value by the others of its isotherm, with scatter and weights as they are; NaN where not judged."""
         n = self.judged.size
         none, evidence = np.full((n, 2), np.nan), np.full((n, len(WEIGHTS), BENDS.size), np.nan)
         loo = LooPrediction(
@@ -127,6 +129,7 @@ class _Table:
         return loo
 
     def _leave_out_group(self, group: _Group, loo: LooPrediction) -> None:
+        """Enter the isotherms of a group into `loo`, and what they tell of the scatter into this table."""
         rows, k = group.rows, group.rows.shape[1]
         out = _side_by_side(ASIDE * self.aside, rows)
         precision, pull, evidence = self._evidence(group, _side_by_side(self.scatter**2, rows) + out)
@@ -226,6 +229,7 @@ class _Table:
             self._learn_weights(loo)
 
     def _learn_scatter(self) -> None:
+        """Scatter of each isotherm, its own drawn to the common one, and the degrees of freedom of that."""
         labels, at = np.unique(self.isotherm[self.judged], return_inverse=True)
 
         def summed(columns: NDArray) -> NDArray:
@@ -254,6 +258,7 @@ class _Table:
             self.freedom[self.isotherm == label] = known
 
     def _learn_weights(self, loo: LooPrediction) -> None:
+        """ln weights of ripple and bend before an isotherm speaks: by all isotherms, bends by other specimens too."""
         first = np.concatenate([group.first for group in self.groups])
         weighed = loo.log_evidence[first] + self.weights[first]
         share = np.exp(weighed - logsumexp(weighed, axis=(1, 2), keepdims=True))
@@ -271,7 +276,7 @@ class _Table:
             self.weights[rows] = np.log(np.multiply.outer(ripples, usual / usual.sum()))
 
     def put_right(self) -> tuple[Exchange, ...]:
-        """Exchange readings that stand in each other's place, one pair of an isotherm at most; those exchanged."""
+        """Exchange readings that stand in each other's place, at most one pair an isotherm; those that then stand."""
         found = self._exchanges()
         if not found:
             return ()
@@ -286,6 +291,7 @@ class _Table:
         return stand
 
     def _exchange(self, one: Exchange) -> None:
+        """Exchange two readings; a second time puts them back."""
         first, second = one.rows
         for column in one.columns:
             moved = self.readings[second, column] - self.readings[first, column]
@@ -308,7 +314,7 @@ class _Table:
         return found
 
     def _stand(self, found: dict[tuple[int, ...], Exchange]) -> tuple[Exchange, ...]:
-        """Those that, done, left good readings in an isotherm in order, and would cost as much if undone."""
+        """Exchanges that stand: undone they would cost what one must gain, and readings and isotherm are in order."""
         chance, most = self.leave_one_out().chance, UNEVEN[1] * self._usual_scatter()
         gain = [gain for _, gain, _ in self._gains(self.scatter)]
         return tuple(
@@ -321,7 +327,7 @@ class _Table:
         )
 
     def _usual_scatter(self) -> Vector:
-        """That (2,) of ln|E*| and phase which half of the isotherms do not exceed."""
+        """Scatter (2,) of ln|E*| and phase [rad] that half of the isotherms do not exceed."""
         labels, first = np.unique(self.isotherm[self.judged], return_index=True)
         scatter: Vector = np.sort(self.scatter[self.judged][first], axis=0)[(labels.size - 1) // 2]
         return scatter
@@ -330,7 +336,7 @@ class _Table:
         return exchanged.least_gain(np.array([rows.size for group in self.groups for rows in group.rows]))
 
     def _gains(self, scatter: NDArray) -> Iterator[tuple[NDArray[np.int64], NDArray, float]]:
-        """Rows (k,) of each isotherm, what exchanges (3, p) gain there, and what wrong values; scatter (n, 2)."""
+        """Of each isotherm: rows (k,), ln evidence gained by exchanges (3, p), and by wrong values; scatter (n, 2)."""
         for group in self.groups:
             precision, pull, weighed = self._weighed(group, scatter)
             gain = exchanged.gains(precision, pull, weighed, self.readings[group.rows])
@@ -339,7 +345,7 @@ class _Table:
             yield from zip(group.rows, gain, (odds - wrong_values.RARE for odds, _ in wrong), strict=True)
 
     def _weighed(self, group: _Group, scatter: NDArray) -> tuple[NDArray, NDArray, NDArray]:
-        """As of `_evidence`, the ln evidence (b, m) with what is usual in the table; scatter (n, 2)."""
+        """As `_evidence`, but ln evidence (b, m) with the learned weights of ripple and bend; scatter (n, 2)."""
         precision, pull, evidence = self._evidence(group, _side_by_side(scatter**2, group.rows))
         return precision, pull, evidence + self.weights[group.first].reshape(evidence.shape)
 
@@ -415,6 +421,7 @@ def blocks(observed: Observations) -> NDArray[np.int64]:
 
 
 def _groups(observed: Observations) -> list[_Group]:
+    """Isotherms of LEAST tests or more, together where their frequencies are equal."""
     block = blocks(observed)
     alike: dict[tuple[float, ...], list[NDArray[np.int64]]] = {}
     order = np.lexsort([observed.frequency, block])
