@@ -12,7 +12,7 @@ from asphalt_nscd.diagnosis.next_tests.further_tests import Possible
 from asphalt_nscd.diagnosis.next_tests.information import Inquiry, Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Sweep
 
-MOST = 5
+MOST = 5  # orders
 ALIKE = 1e-6  # relative difference of gains that is rounding
 LEAST = 0.3  # nats, below which a sweep tells nothing
 
@@ -31,7 +31,7 @@ class Order:
 def choose(model: Possible, questions: Sequence[Question], kinds: Sequence[str]) -> list[Order]:
     """Sweeps by gain per hour, each given those before it; the same sweep on several specimens is one order.
 
-    kinds: of the questions, as in `words.order_words.Open`.
+    `kinds` are those of the questions, as in `words.order_words.Open`.
     """
     inquiry = Inquiry(model.linear, model.old, list(questions))
     orders: list[Order] = []
@@ -53,6 +53,7 @@ def choose(model: Possible, questions: Sequence[Question], kinds: Sequence[str])
         before = inquiry.strengths()
         inquiry.take(sweep.tested)
         after = inquiry.strengths()
+        # Nats from which an order is said to help: a tenth of its gain; of metal, whose gain is small, less.
         least = [0.05 if kind == "metal" else max(0.1 * nats, 0.05) for kind in kinds]
         helped = [int(k) for k in np.argsort(-gain) if gain[k] >= least[k]]
         if alike is None:

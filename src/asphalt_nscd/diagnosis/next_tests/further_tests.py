@@ -51,8 +51,8 @@ class Departure:
 class Possible:
     """The model at the tests done, then at all that could follow, then at tests of metal.
 
-    `candidates` are causes in the order of the effects, whose `departures` come next; `metal_frequencies` in Hz are of
-    the rows that follow those of the table.
+    Columns of the effects are `candidates`, then `departures`; rows of metal, at `metal_frequencies` [Hz], follow those
+    of `table`.
     """
 
     table: Observations
@@ -133,7 +133,7 @@ def _repeats(
 
 
 def _odd(diagnosis: Diagnosis) -> list[dict[str, Any]]:
-    """Isotherms and specimens that are odd."""
+    """Faults of one place whose size is a factor on |E*| or a phase, as in diagnosis.json."""
     return [one for one in diagnosis.ladder.confined_faults if "factor" in one or "phase_deg" in one]
 
 
@@ -186,7 +186,7 @@ def _effect(joint: Joint, at: Fitted, candidate: Candidate, active: tuple) -> Co
 
 
 def _law_derivatives(joint: Joint, at: Fitted) -> tuple[Complex, Vector]:
-    """Derivatives (N, q) with respect to law, scales and shapes of causes; the precision of their priors."""
+    """Derivatives (N, q) of ln E* by law, scales and shapes of causes; the precision (q, q) of their priors."""
     modulus, slope = joint.apparent(at.law, at.active, at.scales)
     shapes = [
         joint.direction(at.law, at.scales, at.active, k, j)
@@ -202,7 +202,7 @@ def _law_derivatives(joint: Joint, at: Fitted) -> tuple[Complex, Vector]:
 def _discrepancy(
     diagnosis: Diagnosis, joint: Joint, at: Fitted
 ) -> tuple[list[Process], list[Complex], list[float]]:
-    """Processes, roots (N, rank) and variances; a new isotherm between those tested, a usual specimen."""
+    """Processes of the discrepancy, with root (N, rank) and variance of each."""
     sizes = diagnosis.ladder.discrepancy
     if not sizes:
         return [], [], []
@@ -215,6 +215,7 @@ def _discrepancy(
 
 
 def _variance(process: Process, sizes: Mapping[Process, float], tested: Vector) -> float:
+    """Of a process: as fitted; at a new isotherm between its neighbours', of a new specimen the mean of its kind."""
     if process in sizes:
         return sizes[process] ** 2
     if process.isotherm is not None:
@@ -239,7 +240,7 @@ def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> Comp
 
 
 def _metal_rows(metal: Observations, table: Observations, columns: Columns, nuisance: Complex) -> Complex:
-    """Of the nuisance only what the machine adds to all tests reaches the metal."""
+    """Rows (m, q) of the nuisance for tests of metal, which only what the machine adds to all tests reaches."""
     rows = np.zeros((metal.size, nuisance.shape[1]), complex)
     like = [int(np.flatnonzero(table.frequency == f)[0]) for f in metal.frequency]
     for process, at in columns:

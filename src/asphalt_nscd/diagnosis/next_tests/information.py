@@ -89,7 +89,7 @@ class Knowledge:
         return more
 
     def _new(self, rows: NDArray[np.int64], scatter: Sequence[Matrix]) -> tuple[Matrix, Matrix]:
-        """Of each set of tests (M, n), effects (M, 2n, K) and spread (M, 2n, q) in units of what was not known."""
+        """Effects (M, 2n, K) and spread (M, 2n, q) of M sets of n tests, `rows` (M, n), over what was not known."""
         # The innovation: scatter of the new tests, and what the old ones leave open of law and discrepancy.
         at = np.concatenate([rows, rows + self._left.shape[0] // 2], axis=1)
         spread = self._spread[at]

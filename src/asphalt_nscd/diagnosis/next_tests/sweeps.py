@@ -85,7 +85,7 @@ def frequencies(observed: Observations) -> list[float]:
 
 
 def _thinned(values: NDArray[np.float64], most: int) -> NDArray[np.float64]:
-    """At most so many of them, spread evenly, both ends among them."""
+    """At most `most` of the values, spread evenly, both ends among them."""
     return values[np.unique(np.linspace(0, values.size - 1, min(most, values.size)).round().astype(int))]
 
 
@@ -97,7 +97,10 @@ def fill_strain(observed: Observations) -> Observations:
 
 
 def every_test(observed: Observations, at: Sequence[float]) -> Observations:
-    """The tests done, then every specimen and a new one at all temperatures [degC], frequencies and two strains."""
+    """The tests done, then every specimen and a new one at all temperatures `at` [degC] and frequencies.
+
+    Last, at half the strain, the frequencies tested at each isotherm of a specimen.
+    """
     names = (*observed.names, NEW)
     full = [(s, t, f, 1.0) for s in range(len(names)) for t in at for f in frequencies(observed)]
     tested = set(zip(observed.specimen.tolist(), observed.isotherm.tolist(), strict=True))
