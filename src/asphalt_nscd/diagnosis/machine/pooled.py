@@ -39,8 +39,8 @@ def is_machine_cause(cause: Cause) -> bool:
 
 MACHINE = frozenset(cause.name for cause in CATALOGUE if is_machine_cause(cause))
 OF_TESTS = tuple(cause for cause in CATALOGUE if cause.alters_tests)
-FARTHEST = 30.0  # standard errors, beyond which a campaign is as far
-ITERATIONS = 30
+FARTHEST = 30.0  # standard errors, from which on all campaigns count as equally far
+ITERATIONS = 30  # of the mixture of sound campaigns and those astray
 SETTLED = 2  # fits with the causes of the machine at their pooled size
 
 
@@ -61,8 +61,8 @@ class _Campaign:
         return replace(self, state=fit_beside.refit_causes(self.state, (*own, *added)))
 
     def judged_beside(self, causes: Sequence[Cause], amplitudes: Vector) -> _Campaign:
-        """The same with the spread that is left beside causes of the machine: what is common to all is no reason to
-        believe each of them less.
+        """Fitted so, with the spread that is left beside causes of the machine: what is common to all campaigns is no
+        reason to believe each of them less.
         """
         state = self.refit_campaign(causes, amplitudes).state
         estimates = limits.estimates(state, one_search.survey(state, OF_TESTS))
@@ -152,7 +152,10 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
 
 
 def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | None = None) -> _Evidence:
-    """Of causes, the last one with the discrepancy's sizes estimated beside it; parts (n, k): shares of it apart."""
+    """What a campaign says of the amplitudes of causes, the discrepancy estimated beside the last of them.
+
+    With `parts` (n, k): of the last cause alone, with an amplitude for each column, which says what tests it is of.
+    """
     state, observed = campaign.state, campaign.state.plain.observed
     size, shown = len(causes), [k for k, cause in enumerate(causes) if cause.places(observed)]
     if not shown:
@@ -251,7 +254,7 @@ def _log_likelihood(left: Vector, weight: Vector) -> float:
 
 
 def _densities(left: Vector, weight: Vector) -> Vector:
-    """Of errors (n,) of sound campaigns and of those in larger error, up to a factor: (2, n)."""
+    """Densities (2, n) of departures `left` (n,) by sound campaigns and by those astray, up to a factor."""
     # Farther out both densities would underflow, and no share of either be left.
     z = np.minimum(np.sqrt(weight) * np.abs(left), FARTHEST)
     sound, wrong = np.exp(-0.5 * z**2), np.exp(-0.5 * (z / criteria.LARGER) ** 2)
@@ -259,7 +262,7 @@ def _densities(left: Vector, weight: Vector) -> Vector:
 
 
 def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float], campaigns: int) -> Cause:
-    """The cause of most likelihood: of one size for all, or with a size in each campaign, which costs two each."""
+    """The likeliest cause by -2 ln likelihood: of one size, or with a size in each campaign, which costs two each."""
 
     def worth(cause: Cause) -> float:
         one = pooled[cause]
@@ -269,14 +272,14 @@ def _likeliest(pooled: Mapping[Cause, _Whole], gains: Mapping[Cause, float], cam
 
 
 def _gain(each: Sequence[_Evidence], taken: Vector) -> float:
-    """Of -2 ln likelihood, by the last cause with an amplitude of its own in each campaign."""
+    """What -2 ln likelihood falls by with the last cause, of an amplitude of its own in each campaign."""
     alone = [one.conditional([taken.size], dict(enumerate(taken))) for one in each]
     shown = [one for one in alone if one.information[0, 0] > 0.0]
     return sum(float(one.score[0] ** 2 / one.information[0, 0]) for one in shown)
 
 
 def _z(cause: Cause, found: _Whole) -> float:
-    """Standard errors, with the sign that a one-sided cause cannot have counted as nothing."""
+    """Size in standard errors; zero where a one-sided cause has the sign that it cannot have."""
     return max(found.z, 0.0) if cause.one_sided else abs(found.z)
 
 
