@@ -26,6 +26,7 @@ OF_THE_MIX = EFFECTS | {LAW, BOND_MAPPING}
 FIT_WORSE = 1.05  # times the misfit without a cause, from which it is told that the cause does not help
 WORSE, AT_ALL = 1.1, 0.5  # times an error of before, and percent more, at which a law has made it worse
 MANY_SPECIMENS = 5  # from here on one odd specimen hardly moves the common curve
+# The number in a sentence of `quality`, as in `load uniformity 12.3 % (limit 10 %)`.
 QUALITY_VALUE = re.compile(r"(?<= )\S+(?= \S+ \(limit )")
 SAME = 1e-3  # relative difference of errors of one law
 
@@ -159,13 +160,16 @@ def misses(
 
 
 def made_worse(before: Sequence[float], after: Sequence[float]) -> list[str]:
-    """In what a law with fewer parameters misses what it was made for by more."""
+    """Which errors, of |E*| and of the phase, are larger after than before by more than WORSE or AT_ALL."""
     pairs = zip(("|E*|", "the phase"), before, after, strict=True)
     return [part for part, was, now in pairs if now > max(WORSE * was, was + AT_ALL)]
 
 
 def begins_with_one_law(content: Content) -> bool:
-    """Whether the ladder begins with one law: of too few tests no spectrum is told, but causes rest on one."""
+    """Whether the ladder begins with one law that is no rung, as of too few tests to tell it, not with Burgers laws.
+
+    The errors before its first rung are then not those of the Burgers laws.
+    """
     first = content["ladder"][0]
     if first["cause"] == LAW:
         return False

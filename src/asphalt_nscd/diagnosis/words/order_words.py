@@ -26,9 +26,9 @@ from asphalt_nscd.diagnosis.words.sentences import article, numbers
 from asphalt_nscd.files.templates import items, template
 from asphalt_nscd.files.words import joined
 
-REASONS = 3
+REASONS = 3  # sentences at most
 NOTICEABLE = 15.0  # percent of cases
-CLEARER = 0.3  # standard errors
+CLEARER = 0.3  # standard errors by which tests must make a cause clearer, to say so
 CLEAR = 2.0 * float(np.log(1000.0))  # strength from which two causes are told apart: 1000 to 1
 
 
@@ -103,7 +103,7 @@ def _template() -> Template:
 
 
 def purpose(order: Order, questions: Sequence[Open]) -> str:
-    """What an order is for, in a few words ("to ..."), without its first reason's numbers."""
+    """What an order is for, in a few words: "to ..." or "because ..."; empty if it helps none of these questions."""
     helped = [questions[k] for k in order.helps]
     repeated = [one for one in helped if one.kind == "repeat"]
     if any(one.copied for one in repeated):

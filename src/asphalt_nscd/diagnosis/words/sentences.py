@@ -40,7 +40,7 @@ def widened(content: Content) -> float:
 
 
 def amplitude(rung: Content) -> dict[str, Any]:
-    """Size of a named cause."""
+    """The estimate of the amplitude of a named cause: value, std_error, unit."""
     return dict(next(iter(rung["parameters"].values())))
 
 

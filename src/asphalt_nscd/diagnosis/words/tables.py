@@ -85,7 +85,7 @@ def _scatter(content: Content) -> list[list[str]]:
 
 
 def _tried(content: Content, cause: str) -> list[str]:
-    """Cause, its limit, how often it was named of how many tries at 1, 2, 3 times it; how often another was named."""
+    """Cause, limit, how often it was named of how many tries at 1, 2, 3 times that, how often another was."""
     by_times = content["measured_limits"][cause]
     tried = [by_times.get(times) for times in ("1", "2", "3")]
     found = ["" if one is None else f"{one['named']} of {one['tried']}" for one in tried]
