@@ -71,7 +71,7 @@ def masked(observed: Observations, out: NDArray[np.bool_], doubtful: NDArray[np.
 
 
 def _two_stand_out(distance: NDArray[np.float64], doubtful: NDArray[np.bool_]) -> bool:
-    """Whether two tests or more, half of a sweep at most, one doubtful, are off the level, and all others clearly on."""
+    """Whether two tests or more, half a sweep at most, are far off the level, one `doubtful`, and the others on it."""
     largest = distance.max()
     off = distance > NEAR * largest
     some = 1 < np.count_nonzero(off) <= distance.size // 2 and bool((off & doubtful).any())
