@@ -12,10 +12,10 @@ dist=$(mkdir -p "${1:-$place/dist}" && cd "${1:-$place/dist}" && pwd)
 
 "$python" -m pip install --quiet --disable-pip-version-check --target "$place/uv" uv
 uv=$place/uv/bin/uv
-left() { git -C "$repository" status --porcelain --ignored | sed '/egg-info/d'; }
-before=$(left)
-"$uv" build --quiet --out-dir "$dist" "$repository" # the wheel from the sdist
-[ "$before" = "$(left)" ] || { echo "error: building the wheel left files in the repository" >&2; exit 1; }
+git clone --quiet "$repository" "$place/clone"
+"$uv" build --quiet --out-dir "$dist" "$place/clone" # the wheel from the sdist
+left=$(git -C "$place/clone" status --porcelain --ignored | sed '/egg-info/d')
+[ -z "$left" ] || { echo "error: building the wheel left $left in the repository" >&2; exit 1; }
 
 # Versions as locked, so that the trial does not depend on what was released today.
 sed -n '/^[a-zA-Z0-9]/s/ *\\$//p' "$repository/requirements.txt" >"$place/locked.txt" # without the hashes
