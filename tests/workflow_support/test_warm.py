@@ -39,6 +39,8 @@ def command(tmp_path, monkeypatch):
     script.write_text(f"#!{sys.executable}\n{SCRIPT}")
     script.chmod(0o700)
     monkeypatch.setenv("PATH", os.environ["PATH"])
+    # What a shell starts in the background ignores an interrupt, and so does all that it starts.
+    ignored = signal.signal(signal.SIGINT, signal.default_int_handler)
     process = warm.start(str(script))
     address = Path(os.environ["PATH"].split(os.pathsep)[0], warm.ADDRESS)
     until(address.exists)
@@ -46,6 +48,7 @@ def command(tmp_path, monkeypatch):
     until(lambda: run("0", cwd=tmp_path).stdout.startswith("True "))
     yield process
     process.communicate()
+    signal.signal(signal.SIGINT, ignored)
     shutil.rmtree(address.parent, ignore_errors=True)  # of a process that was killed
 
 
