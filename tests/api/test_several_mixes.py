@@ -46,25 +46,22 @@ def mixes(tmp_path_factory):
     return [folder / f"{name}.csv" for name in GLASSY]
 
 
+OPTIONS = ["--measured-in", "tension-compression", "--draws", "500"]
+
+
 @pytest.fixture(scope="module")
-def made(mixes):
-    return an.compare(mixes, measured_in="tension-compression", draws=an.Draws(500))
-
-
-def test_mixes_are_ranked_with_what_the_tests_leave_open(mixes, tmp_path):
-    arguments = [
-        *map(str, mixes),
-        "--measured-in",
-        "tension-compression",
-        "--draws",
-        "500",
-        "--same-machine",
-        "--output",
-        str(tmp_path),
-    ]
+def compared(mixes, tmp_path_factory):
+    """What the command says of the three, and the folder that it writes."""
+    folder = tmp_path_factory.mktemp("compared")
+    arguments = [*map(str, mixes), *OPTIONS, "--same-machine", "--output", str(folder)]
     result = CliRunner().invoke(command, arguments, catch_exceptions=False)
     assert result.exit_code == 0
-    lines = result.output.splitlines()
+    return result.output, folder
+
+
+def test_mixes_are_ranked_with_what_the_tests_leave_open(compared):
+    said, folder = compared
+    lines = said.splitlines()
     assert "stiff <b>" in lines[0] and lines[0].split()[0] == "1"
     assert [line.split()[0] for line in lines[1:3]] == [
         "2-3",
@@ -72,25 +69,25 @@ def test_mixes_are_ranked_with_what_the_tests_leave_open(mixes, tmp_path):
     ]  # 0.4 % apart, of specimens that differ by 3 %
     assert any(line.startswith("Nothing common to the campaigns") for line in lines)
     assert any(line.endswith("would mostly stay unseen.") for line in lines)
-    assert pd.read_csv(tmp_path / "machine.csv").empty
-    book = openpyxl.load_workbook(tmp_path / "comparison.xlsx")
+    assert pd.read_csv(folder / "machine.csv").empty
+    book = openpyxl.load_workbook(folder / "comparison.xlsx")
     assert book.sheetnames == ["Ranking", "Conditions", "Differences", "Curves at 15 degC", "Machine"]
     header, first, *_ = book["Ranking"].iter_rows(values_only=True)
     row = dict(zip(header, first))
     true = abs(modulus(GLASSY["stiff <b>"], 10.0, 15.0)) * 1e-6
     assert row["E_low_MPa"] < true < row["E_high_MPa"] and row["rank_high"] == 1
-    page = (tmp_path / "comparison.html").read_text(encoding="utf-8")
+    page = (folder / "comparison.html").read_text(encoding="utf-8")
     assert "stiff <b>" not in page and "stiff &lt;b&gt;" in page and f"{row['E_MPa']:.0f}" in page
     assert "<h2>The machine</h2><p>Nothing common to the campaigns" in page
     svg = page[page.index("<svg") : page.index("</svg>") + 6]
     assert ElementTree.fromstring(svg).tag.endswith("svg")
     for name in GLASSY:
-        names = {path.name for path in (tmp_path / name).iterdir()}
+        names = {path.name for path in (folder / name).iterdir()}
         assert names > {"diagnosis.html", "report.pdf", "corrected.xlsx", "corrected.csv", "law.json"}
 
 
-def test_differences_hold_the_truth_and_stand_only_where_both_were_tested(made):
-    table = made.differences
+def test_differences_hold_the_truth_and_stand_only_where_both_were_tested(compared):
+    table = pd.read_excel(compared[1] / "comparison.xlsx", sheet_name="Differences", engine="openpyxl")
     assert set(table["temperature_C"]) == {15.0, 20.0}  # the warmest tests are at 35 degC
     for row in table.itertuples():
         true = abs(modulus(GLASSY[row.mix], row.frequency_Hz, row.temperature_C))
@@ -104,7 +101,7 @@ def test_mixes_of_one_file_are_compared_by_their_names(mixes, tmp_path):
     frames = [pd.read_csv(path).assign(mix=name) for path, name in zip(mixes, names)]
     pd.concat(frames).to_csv(tmp_path / "book.csv", index=False)
     options = [part for name in names for part in ("--only-mix", name)]
-    options += ["--measured-in", "tension-compression", "--draws", "500", "--output", str(tmp_path / "out")]
+    options += [*OPTIONS, "--output", str(tmp_path / "out")]
     result = CliRunner().invoke(command, [str(tmp_path / "book.csv"), *options], catch_exceptions=False)
     assert result.exit_code == 0
     assert "At 15 degC, 10 Hz AC 16 50/70 has +" in result.output

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -73,6 +74,11 @@ def late(omega, temperature):
 
 def turned(omega, temperature):
     return 1j * np.radians(3.0)
+
+
+@cache
+def of_the_delay():
+    return diagnose(table(late), draws=500)
 
 
 @pytest.mark.parametrize(
@@ -152,15 +158,14 @@ def test_no_less_than_nothing_moves(mass, doubted):
 
 
 def test_a_name_in_doubt_explains_nothing(monkeypatch):
-    observed = table(late)
-    named = diagnose(observed, draws=500)
+    named = of_the_delay()
     (rung,) = named.ladder.rungs
     assert rung.candidate.cause.name == "channel_delay"
     assert named.verdict == "explained" and named.established(rung) and named.doubts == {}
     monkeypatch.setattr(
         "asphalt_nscd.diagnosis.search.ladder.find_doubts", lambda *of: {rung.candidate.key: ["Why"]}
     )
-    doubted = diagnose(observed, draws=500)
+    doubted = diagnose(table(late), draws=500)
     assert doubted.verdict == "unexplained_structure" and not doubted.established(doubted.ladder.rungs[0])
 
 
@@ -172,12 +177,12 @@ def test_without_the_cause_in_the_catalogue_no_name_is_established():
 
 
 def test_a_size_whose_interval_holds_zero_is_unsure():
-    named = diagnose(table(late), draws=500)
-    (rung,) = named.ladder.rungs
-    delay = named.ladder.fitted.active[0].values[0]
+    ladder = of_the_delay().ladder
+    (rung,) = ladder.rungs
+    delay = ladder.fitted.active[0].values[0]
     for error, unsure in ((0.6 * delay, True), (0.4 * delay, False)):
-        named.ladder.estimates = {rung.candidate.key: (delay, error)}
-        assert (named.ladder.unsure is not None) == unsure
+        told = replace(ladder, estimates={rung.candidate.key: (delay, error)})
+        assert (told.unsure is not None) == unsure
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -44,8 +45,13 @@ def begun(joint, fit):
     return fit_beside.begin(laboratory.alone(joint), fit)
 
 
-def sizes(observed):
-    state = begun(*fitted(observed))
+@cache
+def still():
+    """Of a table in which nothing moved."""
+    return begun(*fitted(table(3)))
+
+
+def sizes(state):
     return laboratory.inferred(state.model.processes, state.variances).sizes
 
 
@@ -84,14 +90,14 @@ def test_a_column_is_what_one_kelvin_or_one_mounting_does():
 def test_sizes_follow_the_table(kind):
     random = np.random.default_rng(5)
     drawn = random.standard_normal((4, 6))
-    still = table(3)
-    block = still.specimen, np.searchsorted(still.isotherms, still.isotherm)
+    observed = table(3)
+    block = observed.specimen, np.searchsorted(observed.isotherms, observed.isotherm)
     moved = (
         warmed(1.0 * drawn)
         if kind == "specimen temperature"
-        else replace(still, modulus=still.modulus * np.exp(0.04 * drawn[block]))
+        else replace(observed, modulus=observed.modulus * np.exp(0.04 * drawn[block]))
     )
-    small, large = (sizes(observed)[kind] for observed in (still, moved))
+    small, large = (sizes(state)[kind] for state in (still(), begun(*fitted(moved))))
     usual, drawn_size = (
         laboratory.LABORATORY[kind].size,
         {"specimen temperature": 1.0}.get(kind, 0.04) * drawn.std(),
@@ -142,16 +148,15 @@ def test_a_laboratory_that_holds_its_specimens_alike_holds_its_isotherms():
     """The size is that of the drawn isotherms where specimens scatter as much, and small where they do not."""
     random = np.random.default_rng(4)
     together = random.uniform(-0.3, 0.3, 6)
-    careless = sizes(warmed(together + random.uniform(-0.3, 0.3, (4, 6))))
-    careful = sizes(table(3))
+    careless = sizes(begun(*fitted(warmed(together + random.uniform(-0.3, 0.3, (4, 6))))))
+    careful = sizes(still())
     assert careful["isotherm temperature"] < 0.08
     assert 0.08 < careless["isotherm temperature"] < 0.4
 
 
 def test_a_typical_variance_is_that_of_the_posterior():
     """Of one process and one direction the integral is done by the trapezoid."""
-    joint, fit = fitted(table(3))
-    state = begun(joint, fit)
+    state = still()
     found = state.model.processes
     k = [one.kind for one in found.described].index("isotherm temperature")
     columns = found.factor[:, found.block == k]
@@ -170,8 +175,7 @@ def test_a_typical_variance_is_that_of_the_posterior():
 
 def test_a_size_without_one_is_the_root_of_its_least_variance():
     """Of specimens, any one of which may be at fault; it is known then, and has no spread."""
-    joint, fit = fitted(table(3))
-    state = begun(joint, fit)
+    state = still()
     found = state.model.processes
     k = [one.kind for one in found.described].index("specimen times")
     known = laboratory.sizes_beside_fault(found, state.linear, state.variances)
