@@ -176,7 +176,7 @@ def test_a_typical_variance_is_that_of_the_posterior():
 def test_a_size_without_one_is_the_root_of_its_least_variance():
     """Of specimens, any one of which may be at fault; it is known then, and has no spread."""
     state = still()
-    found = state.model.processes
+    found = laboratory.processes(state.plain, state.linear)  # those of the state are known already
     k = [one.kind for one in found.described].index("specimen times")
     known = laboratory.sizes_beside_fault(found, state.linear, state.variances)
     model, least = likelihood.reduce(found, state.linear), np.inf
