@@ -224,7 +224,9 @@ def test_laws_of_measured_mixes():
     burgers, one_law, as_run = (said[rung] for rung in ("burgers", "one_law", "as_run"))
     assert f"by {burgers[0]} % of |E\\*| and {burgers[1]} % of the phase; one law for all temp" in readme()
     assert f"temperatures by {one_law[0]} and {one_law[1]} %" in readme()
-    assert f"error of a drifting haversine by {as_run[0]} and {as_run[1]} %, which fits nothing more" in readme()
+    assert (
+        f"error of a drifting haversine by {as_run[0]} and {as_run[1]} %, which fits nothing more" in readme()
+    )
     out = table.left_out_isotherm_E_percent
     phase = table.left_out_isotherm_phase_percent
     told = " and ".join(

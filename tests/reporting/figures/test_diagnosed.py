@@ -131,7 +131,9 @@ def test_what_was_found_at_0_degC_stands_at_its_isotherm(results):
     (path,) = results.diagnosis()["diagnosis"]
     content = read_json(path)
     bias = {"bias": {"value": 1.5, "std_error": 0.1, "unit": "K"}}
-    content["ladder"].append(content["ladder"][0] | {"cause": "temperature_bias", "where": 0.0, "parameters": bias})
+    content["ladder"].append(
+        content["ladder"][0] | {"cause": "temperature_bias", "where": 0.0, "parameters": bias}
+    )
     write_json(path, content)
     axes = fig_limits.draw(diagnosis=[path]).axes[2]
     (found,) = [bars for bars in axes.containers if isinstance(bars, ErrorbarContainer)]

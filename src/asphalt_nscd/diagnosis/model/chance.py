@@ -84,7 +84,7 @@ def largest_by_chance(
 
 
 def tail(by_chance: Vector, z: float) -> float:
-    """Chance of z or more, above zero: the share of draws, or where they are few the normal tail scaled to meet them."""
+    """Chance of z or more, above zero: the share of draws, or where few are left the normal tail that meets them."""
     count = np.count_nonzero(by_chance >= z)
     # Fewer than ten draws tell a chance to a third at best.
     if count >= 10:

@@ -106,7 +106,7 @@ class Processes:
 
 
 def processes(joint: Joint, fitted: Fitted) -> Processes:
-    """Gaussian processes of the discrepancy that a table may hold; what a specimen's own spectrum does is linearised at the fit."""
+    """Gaussian processes of a table's discrepancy; what a specimen's own spectrum does is linearised at the fit."""
     observed, noise = joint.observed, joint.noise
     described, roots = list[Process](), []
     # The law of a single specimen is its spectrum.

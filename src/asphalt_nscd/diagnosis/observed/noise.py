@@ -36,11 +36,18 @@ class Noise:
 
     def subset(self, rows: NDArray) -> Noise:
         """The noise of some of the tests, given as a mask or an index; their blocks are numbered anew."""
-        rows_of_both = np.concatenate([np.arange(self.block.size)[rows] + k * self.block.size for k in (0, 1)])  # of ln|E*|, then of the phase
+        # rows of ln|E*|, then of the phase
+        rows_of_both = np.concatenate(
+            [np.arange(self.block.size)[rows] + k * self.block.size for k in (0, 1)]
+        )
         discrepancy = None if self.discrepancy is None else self.discrepancy[rows_of_both]
         block = np.unique(self.block[rows], return_inverse=True)[1]
         return replace(
-            self, within=self.within[:, rows], shared=self.shared[:, rows], block=block, discrepancy=discrepancy
+            self,
+            within=self.within[:, rows],
+            shared=self.shared[:, rows],
+            block=block,
+            discrepancy=discrepancy,
         )
 
     def whiten(self, values: Complex) -> Vector:
