@@ -26,10 +26,10 @@ LARGEST_MISFIT = 1.0  # rms of ln G* of a law about its table: more is no binder
 SCATTER, LEAST_SETPOINTS = (
     1.0,
     3,
-)  # K of readings about a temperature that was set; temperatures that a shift needs
-POOR_MISFIT = 0.15  # more than that is told
+)  # K that readings of one set temperature differ by at most; temperatures that a shift needs
+POOR_MISFIT = 0.15  # of the same: more than that is told
 LEAST_ABOVE = 5.0  # K of a table above the temperature at which its WLF shift is singular
-LAW_KEYS = {  # of a recipe: our name and unit
+LAW_KEYS = {  # of a recipe: parameter of TwoS2P1D, and the unit of the key in SI
     "E00_MPa": ("static_modulus", 1e6),
     "E0_MPa": ("glassy_modulus", 1e6),
     "delta": ("delta", 1.0),
@@ -96,7 +96,7 @@ class Binder:
 
 @dataclass(frozen=True)
 class ViscosityShift:
-    """Shift of a binder whose viscosity [cP] at T [deg Rankine] is log10 log10 = A + VTS log10 T (ASTM D2493)."""
+    """Shift of a binder of viscosity eta [cP], log10 log10 eta = A + VTS log10 T, at T [deg Rankine] (ASTM D2493)."""
 
     a: float
     vts: float
@@ -139,7 +139,7 @@ class Blend:
 
     @property
     def shift(self) -> Shift:
-        """That of the first binder."""
+        """Shift of the first binder."""
         return self.first.shift
 
     def complex_modulus(self, omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
@@ -193,7 +193,7 @@ def _viscous(a: float, vts: float) -> Binder:
 
 
 def _graded(grade: str, path: str | Path) -> Binder:
-    """A binder of the usual A and VTS of a performance grade, as "PG 64-22"; that of AASHTO M 332 has a letter more."""
+    """A binder with the usual A and VTS of a grade, as "PG 64-22", or with a letter for traffic (AASHTO M 332)."""
     given = re.fullmatch(r"(?:PG)?\s*(\d+)\s*([SHVE]?)\s*-\s*(\d+)", grade.strip().upper())
     high, traffic, low = given.groups() if given else ("0", "", "0")
     usual = GRADES.get(int(high), {}).get(-int(low))
@@ -234,6 +234,7 @@ def _viscosity_line(content: Mapping[str, float], path: str | Path) -> tuple[flo
 
 
 def _shift(content: Mapping[str, Any]) -> WLF | Arrhenius:
+    """Shift of the law of a recipe; without its key the law is asked at the reference temperature alone."""
     reference = content.get("reference_temperature_C", UNSTATED)
     of = content.get("shift", {"activation_energy_J_mol": 150e3})  # without one no other temperature is asked
     if "wlf_C1" in of:

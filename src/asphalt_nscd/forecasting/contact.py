@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import ellipk
 
-RINGS = 40  # 0.3 % of the stiffness
+RINGS = 40  # which leave an error of 0.3 % in the stiffness
 INNERMOST = 2e-3  # rim of the first ring over R
 THINNEST = 1e-9  # gap over R, at least
 POINTS = 6  # of a ring's integral

@@ -76,7 +76,7 @@ def _modulus(recipe: Recipe, settings: Settings, faster: float = 1.0) -> np.ndar
 
 
 def _changed(recipe: Recipe, settings: Settings) -> dict[str, tuple[Recipe, Settings]]:
-    """Recipe and settings with one of INPUTS or OF_THE_MODEL changed."""
+    """By each of INPUTS and OF_THE_MODEL, recipe and settings with it changed; `stiffness` is changed by frequency."""
     stiffer = replace(recipe.aggregate, modulus=1.25 * recipe.aggregate.modulus)
     more = replace(settings, contacts=1.5 * settings.contacts)
     return {
@@ -93,7 +93,7 @@ def _changed(recipe: Recipe, settings: Settings) -> dict[str, tuple[Recipe, Sett
 
 
 def refilled(grading: Grading, more: float) -> Grading:
-    """The grading with so much `more` filler in place of all that is coarser."""
+    """The grading with a share `more` of filler in place of all that is coarser."""
     sieve = np.union1d(grading.sieve, [FILLER])
     passing, filler = grading.passing_at(sieve), float(grading.passing_at(FILLER))
     more = min(more, 1.0 - filler)

@@ -30,7 +30,7 @@ NUMBERED = {  # mm, of the sieves of ASTM E11
     "4": 4.75, "6": 3.35, "8": 2.36, "10": 2.0, "12": 1.7, "16": 1.18, "20": 0.85, "30": 0.6, "40": 0.425, "50": 0.3,
     "60": 0.25, "80": 0.18, "100": 0.15, "140": 0.106, "200": 0.075, "230": 0.063,
 }  # fmt: skip
-INCHES = {
+INCHES = {  # mm, of sieves named in inches
     "3": 75.0,
     "2 1/2": 63.0,
     "2": 50.0,
@@ -42,7 +42,7 @@ INCHES = {
     "1/4": 6.3,
 }
 EXAMPLE = "asphalt-nscd forecast --help shows a recipe"
-LEAST_VOIDS = 0.15  # per cent, if any: less is a share of one
+LEAST_VOIDS = 0.15  # per cent of air voids, if not none: less was given as a share of one
 DENSEST = 0.97  # of the volume without air: more solids than any mix has
 USUAL: dict[
     str, Any
@@ -61,7 +61,7 @@ class Grading:
     passing: np.ndarray
 
     def passing_at(self, diameter: np.ndarray | float) -> np.ndarray:
-        """Share finer than a diameter [m], straight between sieves over the logarithm of size; all below pass."""
+        """Share finer than a diameter [m], straight between sieves over the logarithm of size, level beyond them."""
         return np.interp(np.log(diameter), np.log(self.sieve), self.passing)
 
 
@@ -184,7 +184,7 @@ def _outside(measured: tuple[float, float] | None, temperature: np.ndarray) -> n
 
 
 def _keyed(grading: Any, path: str | Path) -> Any:
-    """Sieves as text: YAML reads 0.063 as a number."""
+    """The grading with its sieves as text, for YAML reads 0.063 as a number; refuses a sieve that is given twice."""
     if not isinstance(grading, Mapping):
         return grading
     keyed = {str(sieve): share for sieve, share in grading.items()}
@@ -194,7 +194,7 @@ def _keyed(grading: Any, path: str | Path) -> Any:
 
 
 def _number(sieve: str) -> float | str:
-    """Its opening [mm]: a number, that of a sieve of ASTM E11, or the text where it is neither."""
+    """Opening [mm] of a sieve by its text, a number or a name of ASTM E11; the text itself where it is neither."""
     name = " ".join(sieve.casefold().replace("-", " ").split())
     if (numbered := re.fullmatch(r"(?:#|no\.?)\s*(\d+)", name)) and numbered[1] in NUMBERED:
         return NUMBERED[numbered[1]]
@@ -208,7 +208,7 @@ def _number(sieve: str) -> float | str:
 
 
 def _require_finite(content: Any, path: str | Path, *keys: str) -> None:
-    """No bounds refuse a nan."""
+    """Refuse a number in the content, below `keys`, that is not finite: no bounds of the schema refuse a nan."""
     if isinstance(content, Mapping | list):
         pairs = content.items() if isinstance(content, Mapping) else enumerate(content)
         for key, value in pairs:
@@ -218,6 +218,7 @@ def _require_finite(content: Any, path: str | Path, *keys: str) -> None:
 
 
 def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
+    """The grading of a recipe, sieves ascending; refuses what is no curve of per cent passing by mm."""
     sizes = [_number(sieve) for sieve in content]
     if not all(isinstance(size, float) and np.isfinite(size) for size in sizes):
         raise InputError(
@@ -250,7 +251,7 @@ def _grading(content: Mapping[str, float], path: str | Path) -> Grading:
 
 
 def _binder(content: Mapping[str, Any], path: str | Path, read_table: TableReader) -> Binder:
-    """The binder of the mix, that of recycled asphalt in it."""
+    """The binder of the mix, blended with that of recycled asphalt where the recipe has some."""
     binder = read_binder(content["binder"], path, read_table)
     rap = content.get("rap")
     if rap is None:
@@ -271,7 +272,7 @@ def _binder(content: Mapping[str, Any], path: str | Path, read_table: TableReade
 
 
 def _points(content: Mapping[str, Any], binder: Binder, path: str | Path) -> tuple[np.ndarray, np.ndarray]:
-    """Temperature and frequency of each point, all frequencies at each temperature."""
+    """Temperature [degC] and frequency [Hz] (n,) of each point, all frequencies at each temperature."""
     if "frequencies_Hz" in content and "angular_frequencies_rad_s" in content:
         raise InputError(f"{path}: frequencies_Hz and angular_frequencies_rad_s; give one of them.")
     if "angular_frequencies_rad_s" in content:

@@ -126,7 +126,7 @@ def require_free_binder(recipe: Recipe) -> None:
 def _put_in(
     bulk: Complex, shear: Complex, stone: Solid, air: float, amount: float
 ) -> tuple[Complex, Complex]:
-    """K and G after -ln(1 - fraction) = `amount` of grains, a share of `air` among them, by steps of second order."""
+    """K and G with grains, a share `air` of them voids, put in by -ln(1 - fraction) = `amount`, to second order."""
     steps = max(1, int(np.ceil(amount / SUBSTEP)))
 
     def rate(soft: Complex, shear: Complex) -> tuple[Complex, Complex]:
@@ -150,7 +150,10 @@ def _put_in(
 def _contacts(
     k: int, finer: list[tuple[Complex, Complex]], stone: Solid, settings: Settings
 ) -> Complex | float:
-    """n k / (pi r) (n,) [Pa] of grains between two of SIZES, in what all `finer` made of the binder: (K, G) at each."""
+    """n k / (pi r) (m,) [Pa] of the grains from SIZES k - 1 to k.
+
+    `finer` has K and G (m,) [Pa] of the binder with all grains up to each smaller size.
+    """
     if not settings.contacts:
         return 0.0
     size = float(np.sqrt(SIZES[k - 1] * SIZES[k]))
@@ -168,7 +171,7 @@ def _contacts(
 
 
 def _interpolated(size: Vector, log: Complex) -> Complex:
-    """Moduli (m, n) where grains of a log of size (n,) are the coarsest, straight between logs (s, m) at SIZES."""
+    """Moduli (m, n) [Pa] with grains up to ln of size (n,), by logarithms (s, m) at SIZES and straight between them."""
     known = np.log(SIZES[: len(log)])
     place = np.interp(size, known, np.arange(len(log)))
     low = np.minimum(place.astype(int), len(log) - 2)
@@ -177,7 +180,7 @@ def _interpolated(size: Vector, log: Complex) -> Complex:
 
 
 def _skeleton(recipe: Recipe, settings: Settings) -> tuple[float, float]:
-    """K and G [Pa] of dry grains that stick under a pressure: Love and Weber for the force, Hertz, Mindlin."""
+    """K and G [Pa] of dry grains that stick under a pressure: force by Love and Weber, contacts by Hertz, Mindlin."""
     stone, grains = recipe.aggregate, volumes(recipe)[0]
     solid = float(grains[-1] - grains[SIZES <= FILLER][-1])
     if not solid:

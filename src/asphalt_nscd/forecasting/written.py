@@ -31,7 +31,7 @@ TABLE, RIVAL_TABLE, DESIGN, LAW, SUMMARY = (
 CHAIN_ERROR = 1e-3  # of ln E*
 IN_A_DECADE = 8  # points of a law at one temperature
 FURTHER = np.array([0.0, 10.0, 20.0])  # K: temperatures of a law beside those asked
-SPREAD = np.geomspace(0.1, 100.0, 7)  # rad/s, likewise
+SPREAD = np.geomspace(0.1, 100.0, 7)  # rad/s, at those further temperatures
 DESIGN_F, DESIGN_HZ = (14, 40, 70, 100, 130), (0.1, 0.5, 1, 5, 10, 25)  # what AASHTOWare Pavement ME asks for
 HEADLINE = (15.0, 10.0)  # degC and Hz, as of a diagnosis (EN 12697-26)
 # Root mean squares of what the forecast and Hirsch's regression miss: factor of |E*| and degrees of phase. A test holds
@@ -69,7 +69,7 @@ def points(found: Forecast) -> pd.DataFrame:
 
 
 def rival_points(found: Forecast) -> pd.DataFrame:
-    """What mean fields and regressions make of the recipe: one row for each temperature, frequency and rival."""
+    """The forecast, and what each of RIVALS makes of the recipe: a row for each temperature and frequency."""
     frame = points(found)[["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]]
     for name, rival in RIVALS.items():
         modulus = rival(found.recipe)
@@ -189,7 +189,7 @@ def law_of_mix(found: Forecast) -> dict[str, Any]:
 
 
 def _smooth(found: Forecast) -> Callable[[np.ndarray], np.ndarray]:
-    """E* [Pa] at angular frequencies [rad/s] of the recipe's band and its one temperature, through points of it."""
+    """E* [Pa] as a function of omega [rad/s], in the band and at the one temperature of a recipe, by a spline."""
     reference = found.recipe.binder.shift.reference_temperature
     omega = 2.0 * np.pi * found.recipe.frequency
     low, high = 0.5 * omega.min(), 2.0 * omega.max()
@@ -242,6 +242,7 @@ def summary(found: Forecast) -> dict[str, Any]:
         "volume_percent": {name: 100.0 * share for name, share in composition(recipe).items()},
         "vma_percent": vma,
         "vfa_percent": vfa,
+        # Of a binder of a millipascal, which bears nothing.
         "relaxed_modulus_MPa": 1e-6 * float(modulus_of_mix(recipe, np.array([1e-3]), found.settings)[0].real),
         "amplification_of_binder_at_MPa": [1e-6 * size for size in SHOWN],
         "amplification": amplified,
