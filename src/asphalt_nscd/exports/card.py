@@ -67,7 +67,7 @@ class Card:
 
     @property
     def half_widths(self) -> NDArray[np.float64] | None:
-        """Half of the 95 % intervals of long-term modulus and branches, (1 + m,) [Pa], to first order.
+        """Half of the 95 % intervals of the long-term modulus and m branches (1 + m,) [Pa], to first order.
 
         The moduli are those that follow the law over the band when its parameters move by their covariance, at fixed
         relaxation times. None where the law's file has no covariance, and for an exact series.

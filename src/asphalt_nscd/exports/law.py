@@ -117,11 +117,7 @@ class ExportedLaw:
         return float(reduced.min()), float(reduced.max())
 
     def wlf(self) -> WLF | None:
-        """The shift as WLF constants.
-
-        An Arrhenius shift is one without approximation: exp(Q/R (1/T - 1/T0)) = 10^(-C1 dT / (C2 + dT))
-        with C2 = T0 in kelvin and C1 = Q / (R T0 ln 10).
-        """
+        """The shift as WLF constants, which an Arrhenius shift has too (`wlf_of`); None for one temperature."""
         if not isinstance(self.shift, Arrhenius):
             return self.shift
         return wlf_of(self.shift)
@@ -215,7 +211,7 @@ def law_of(
 
 
 def _misses(path: Path) -> Mapping[str, float] | None:
-    """Errors of a law.json, as the diagnosis beside it has them; of an older one, none."""
+    """Errors of a law.json as the diagnosis beside it has them; None without one, or if it is too old to have them."""
     beside = path.with_name("diagnosis.json")
     if path.name != LAW_OF_DIAGNOSIS or not is_file(beside):
         return None
@@ -224,7 +220,7 @@ def _misses(path: Path) -> Mapping[str, float] | None:
 
 
 def _numbers(content: Any) -> dict[str, float]:
-    """What is a number in a part of the file, but for what is said elsewhere."""
+    """The numbers in a part of the file by their keys, without those of _SAID, which are told elsewhere."""
     if not isinstance(content, dict):
         return {}
     # A flag is no parameter, although Python's bool is an int.
@@ -241,6 +237,7 @@ def _band(
     temperatures: tuple[float, ...] | None,
     frequencies: tuple[float, ...] | None,
 ) -> Band:
+    """What was tested: as stated, else by residuals.csv beside the law, else by the chain, else a usual band."""
     one = content["law"] in ONE_TEMPERATURE
     residuals = path.with_name("residuals.csv")
     origin = "as stated"

@@ -34,9 +34,9 @@ Vector = NDArray[np.float64]
 class Table:
     """|E*| by temperature (rows) and frequency (columns): `modulus` (t, f) [psi].
 
-    `outside` holds words on values beyond the tests; `sigmoid` is delta, alpha, beta, gamma, with the largest error
-    `error_percent` in |E*|; `log_shift` (t,) is log10 a_T from 70 degF; `spread` (t, f) is the factor of the 95 %
-    interval to either side, NaN or None where none is known.
+    `outside` says of each value if it is beyond the tests: "f" in reduced frequency, "T" in temperature, "fT" in both;
+    `sigmoid` is delta, alpha, beta, gamma, with the largest error `error_percent` in |E*|; `log_shift` (t,) is log10
+    a_T from 70 degF; `spread` (t, f) is the factor of the 95 % interval to either side, NaN or None where not known.
     """
 
     law: ExportedLaw

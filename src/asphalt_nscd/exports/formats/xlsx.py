@@ -147,6 +147,7 @@ def _shift_factors(card: Card) -> pd.DataFrame:
 
 
 def _master_curve(card: Card) -> pd.DataFrame:
+    """The law and its Prony series over the tested band, at frequencies reduced to one temperature."""
     low, high = card.law.reduced_band()
     omega = np.geomspace(low, high, max(3, round(IN_A_DECADE * np.log10(high / low)) + 1))
     law, series = card.law.reference_modulus(omega), card.series.complex_modulus(omega)
@@ -176,7 +177,7 @@ def _master_curve(card: Card) -> pd.DataFrame:
 
 
 def _prony(card: Card) -> pd.DataFrame:
-    """As the CSV has it, but the infinite time of the long-term modulus is left empty."""
+    """The series as the CSV has it; `_fill` leaves the infinite time of the long-term modulus empty."""
     unit = card.units.stress
     return csv.frame(card).rename(
         columns={
@@ -242,7 +243,7 @@ def _heading(name: str) -> str:
 
 
 def _fill(book: Workbook, title: str, frame: pd.DataFrame) -> None:
-    """A sheet with a heading that stays in sight."""
+    """Add a sheet with the frame, and its headings on top, which stay in sight."""
     sheet: Worksheet = book.create_sheet(title)
     sheet.append(list(frame.columns))
     for row in frame.astype(object).itertuples(index=False):
@@ -258,6 +259,7 @@ def _fill(book: Workbook, title: str, frame: pd.DataFrame) -> None:
         sheet.column_dimensions[get_column_letter(number)].width = min(longest + 2, WIDEST)
     for cell in sheet[1]:
         cell.font, cell.alignment = Font(bold=True), Alignment(wrap_text=True, vertical="top")
+    # Of the last column, which is the only one of a sheet of sentences.
     if longest > WIDEST:
         for (cell,) in sheet.iter_rows(min_row=2, max_col=1):
             cell.alignment = Alignment(wrap_text=True, vertical="top")
