@@ -76,7 +76,7 @@ def _job(path: Path) -> dict[str, str]:
 
 
 def _number(text: str) -> float:
-    """None where a job was too short to be measured, for which Snakemake writes - or NA."""
+    """The number; NaN where a job was too short to be measured, for which Snakemake writes - or NA."""
     return float("nan") if text in ("-", "NA") else float(text)
 
 

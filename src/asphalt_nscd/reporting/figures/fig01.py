@@ -29,8 +29,8 @@ LINE: dict[str, Any] = {"edgecolor": style.INK, "lw": 0.8, "joinstyle": "round"}
 class _Drawing:
     """A specimen from the front [m]: widths at foot and head, height, depth, and what is written and held in (b).
 
-    lengths: symbol, value and (x, z) in widths of the foot and heights; said: text by level in heights. held: levels of
-    plates that rest; driven: levels of those that move, along the axis if not `bends`.
+    lengths: symbol, value [m] and place (x, z), in widths of the foot and heights; said: level, in heights, and text.
+    held: levels of plates that rest; driven: levels of those that move, along the axis if not `bends`.
     """
 
     widths: tuple[float, float]
@@ -44,6 +44,7 @@ class _Drawing:
 
 
 def _drawing(shape: Any, amplitude: float) -> _Drawing:
+    """What to draw of a shape whose head, or inner clamps, move by `amplitude` [m]."""
     drive = rf"$z = A\,\sin\,\omega t$,  $A$ = {1e6 * amplitude:.3g} µm"
     mass = (0.5, f"specimen $M$ = {shape.mass:g} kg")
     moved = f"mobile mass $m$ = {shape.mobile_mass:g} kg"
@@ -97,6 +98,7 @@ def _front(made: _Drawing) -> np.ndarray:
 
 
 def _solid(axes: Axes, made: _Drawing) -> None:
+    """Draw the body with its lengths, as seen from the front and a little from the right and above."""
     front, back = _front(made), made.depth * RECEDING
     if made.depth:
         axes.add_patch(
@@ -121,6 +123,7 @@ def _solid(axes: Axes, made: _Drawing) -> None:
 
 
 def _scheme(axes: Axes, made: _Drawing, shape: Any) -> None:
+    """Draw the specimen at rest, its outline as it is moved, the plates that hold and drive it, and the words."""
     h, front = made.height, _front(made)
     axes.add_patch(Polygon(front, facecolor=FRONT, **LINE))
     z = np.linspace(0.0, h, 80)

@@ -50,6 +50,7 @@ def _opening(normal: float, tangential: float, friction: float) -> tuple[float, 
 
 
 def _graph(axes: Axes, velocity: np.ndarray, reaction: np.ndarray, across: str, up: str) -> None:
+    """Draw reactions over velocities (n,), with axes of these names."""
     for line in (axes.axhline, axes.axvline):
         line(0.0, color=style.PALE, lw=0.5, zorder=0)
     axes.plot(velocity, reaction, color=style.BLUE, marker="o", ms=2.6)

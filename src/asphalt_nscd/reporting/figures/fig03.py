@@ -41,6 +41,7 @@ def draw(laws: list[Path], specimen: list[Path], study: list[Path]) -> Figure:
 
 
 def _element(axes: Axes, index: str, values: list[float]) -> None:
+    """Draw a Maxwell and a Kelvin element in series between two spheres, with K and C of `values` (4,)."""
     axes.set_axis_off()
     axes.set_aspect("equal")
     axes.set_xlim(-1.9, END + 1.9)

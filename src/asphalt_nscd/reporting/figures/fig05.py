@@ -19,7 +19,7 @@ from asphalt_nscd.reporting.figures.spheres import View, picture
 
 # On paper, mm.
 HEIGHT, TALL, EDGE, GUTTER, TITLE = 113.0, 102.0, 1.0, 7.0, 9.0
-SECTION = 25.0  # the least height of the section below the layers, which a cylinder needs thick
+SECTION = 25.0  # least height left for the section below the two layers, which are thick for a cylinder
 LEGEND = 17.0  # width of the column that says which shade is which size
 # No file keeps more than 250 dots an inch: at 508, drawing and saving took 7.1 CPU s in place of 3.6.
 PIXELS = 12.0  # per mm: 300 dots an inch

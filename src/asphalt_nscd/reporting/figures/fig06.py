@@ -48,7 +48,7 @@ def draw(solved: list[Path], part: list[Path], stopped: list[Path]) -> Figure:
 
 
 def _forces(axes: Axes, records: Sequence[Record], reference: Record) -> None:
-    """Over the amplitude of the reference. Coarse steps thick and light, fine ones thin and dark: all stay visible."""
+    """Draw last cycles over the amplitude of the reference; coarse steps thick and light, fine ones thin and dark."""
     scale = np.ptp(last_cycle(reference)[2]) / 2.0
     for rank, (record, (colour, _)) in enumerate(zip(records, style.series(len(records))[::-1], strict=True)):
         time, _, force = last_cycle(record)

@@ -55,6 +55,7 @@ def _profiles(
     velocity: np.ndarray,
     head: np.ndarray,
 ) -> None:
+    """Draw velocities (t, l) [mm/s] over height (l,) [mm] at INSTANTS, beside the line of theory times `head` (t,)."""
     fine = np.linspace(0.0, shape.h, 200)
     beam = shape.line(fine)
     for (instant, text), (colour, marker) in zip(INSTANTS.items(), style.series(len(INSTANTS)), strict=True):
@@ -86,6 +87,7 @@ def _profiles(
 
 
 def _histories(axes: Axes, height: np.ndarray, cycles: np.ndarray, velocity: np.ndarray) -> None:
+    """Draw velocities (t, l) [mm/s] of layers at five heights over half a cycle."""
     half = cycles <= 0.5 + 1e-9
     shares = np.linspace(0.2, 1.0, HEIGHTS)
     layers = [int(np.argmin(np.abs(height - share * height[-1]))) for share in shares]

@@ -19,7 +19,7 @@ PARTS = ("kinetic", "impact", "friction", "numerical")  # of the account
 
 @style.journal
 def draw(fall: list[Path]) -> Figure:
-    """Draw (a)-(d) the pieces from the side, (e) shares of the energy that the fall has set free at its end."""
+    """Draw (a)-(d) the pieces from the side, (e) where the energy of the fall goes, in shares of what it sets free."""
     arrays = load(only_file(fall, "fall"), "fall").arrays
     time, radius = arrays["time_s"], arrays["frames/radius_m"]
     figure, axes = style.new_figure(style.WIDE, 62.0, columns=SHOWN + 1, width_ratios=(1.0,) * SHOWN + (1.3,))

@@ -97,6 +97,7 @@ def _chains(axes: Axes, specimen: Record, force: NDArray[np.float64], colour: st
 
 
 def _field(axes: Axes, position: np.ndarray, radius: np.ndarray, speed: np.ndarray) -> None:
+    """Draw spheres (n, 3), (n,) [m] from the front, shaded by their speed (n,) over that of the head."""
     shades = ScalarMappable(Normalize(0.0, 1.0), colormaps["viridis"])
     resolution = PER_MM * TALL / np.ptp(position[:, 2])
     image, extent = picture(position, radius, shades.to_rgba(speed)[:, :3], VIEW, resolution)
@@ -110,6 +111,7 @@ def _field(axes: Axes, position: np.ndarray, radius: np.ndarray, speed: np.ndarr
 
 
 def _distribution(axes: Axes, force: NDArray[np.float64]) -> None:
+    """Draw how many bonds bear a force (b,), over its mean, in tension and in compression."""
     for part, colour, dash, text in (
         (force[force > 0.0], PULLED, style.DASHES[0], "tension"),
         (-force[force < 0.0], PUSHED, style.DASHES[1], "compression"),

@@ -65,6 +65,7 @@ def draw(diagnosis: list[Path]) -> Figure:
 
 
 def _panel(axes: Axes, cause: str, rows: dict[str, float], unit: str, found: dict) -> None:
+    """Draw the limits of a cause by place, in its unit; `found` has amplitude and error by cause and place."""
     for row, (place, value) in enumerate(rows.items()):
         size, name = shown(value, unit)
         axes.barh(row, size, color=style.PALE, height=0.7)

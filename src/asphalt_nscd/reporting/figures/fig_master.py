@@ -27,8 +27,8 @@ class Master:
     """Tests and curves over reduced_Hz; `shift` is log10 of the factor by isotherm [degC], none without a common law.
 
     tests: specimen, isotherm_C, reduced_Hz, E_MPa, phase_deg, and filled and words for `panels.points`. mix: the same
-    quantities of the mix with their 95 % bands, as reported.csv has them; law: of law.json, beside it. Where there is
-    no mix, isotherms of what was modelled. corrected: causes that were taken off the tests.
+    quantities of the mix with their 95 % bands, as reported.csv has them; law: of law.json, beside it; modelled: means
+    of the fit, drawn by isotherm where there is no mix. corrected: causes that were taken off the tests.
     """
 
     tests: pd.DataFrame
@@ -124,13 +124,14 @@ def master(
 
 
 def _reduced(tests: pd.DataFrame, nominal: list[float], shift: dict[float, float]) -> pd.DataFrame:
+    """The tests with the nearest of `nominal` [degC] as isotherm_C, and their frequency shifted as reduced_Hz."""
     isotherm = panels.isotherm_of(tests["temperature_C"], nominal)
     factor = 10.0 ** np.array([shift.get(at, 0.0) for at in isotherm])
     return tests.assign(isotherm_C=isotherm, reduced_Hz=tests["frequency_Hz"] * factor)
 
 
 def _curves(curve: Sequence[Path]) -> tuple[pd.DataFrame, pd.DataFrame | None]:
-    """The free master curve with its band, of which the reported values are, and the law of law.json without one."""
+    """The free master curve with its band, which gives the reported values; the law of law.json, None without one."""
     table = read_csv(only_file(curve, "master curve"))
     numbers = [name for name in table.columns if name != "averaged_over"]
     # A band that is not known is empty.

@@ -66,7 +66,7 @@ def draw(residuals: list[Path], diagnosis: list[Path], extended: Sequence[Path] 
 
 
 def paired(tests: pd.DataFrame, extended: Sequence[Path]) -> pd.DataFrame:
-    """Residuals with those after from the mean over simulated samples: 100 ln |E*| ratio and difference of phases."""
+    """Residuals of which those `after` are against the mean of simulated samples: 100 ln of |E*| [%], phase [deg]."""
     simulated = averages(read_tests(extended))[["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]]
     both = tests.merge(
         simulated, on=["temperature_C", "frequency_Hz"], how="left", suffixes=("", "_simulated")

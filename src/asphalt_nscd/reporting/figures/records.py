@@ -10,7 +10,7 @@ from asphalt_nscd.files.store import Record
 def last_cycle(record: Record) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The last whole cycle of a test: time from its start [s], displacement [m] and force [N]."""
     time, frequency = record.arrays["time_s"], record.attributes["frequency_Hz"]
-    # A cycle that is no multiple of the time step may lack half a step at its end.
+    # The first time is one step after rest. A cycle that is no multiple of it may lack half a step at its end.
     step = time[0]
     whole = np.floor((time[-1] + step) * frequency)
     start = (whole - 1.0) / frequency

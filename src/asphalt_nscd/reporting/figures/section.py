@@ -14,7 +14,7 @@ WINDOW = 0.17  # width of the piece shown, of the specimen's height
 
 
 def draw_section(axes: Axes, specimen: Record, colours: NDArray[np.float64]) -> None:
-    """Middle plane y = 0 around half the height, on axes whose shape sets that of the piece shown."""
+    """Draw a piece of the plane y = 0 about half the height, of the shape of the axes; `colours` (n, 3) of spheres."""
     position, radius = specimen.arrays["position"], specimen.arrays["radius"]
     box = axes.get_position()
     figure = axes.get_figure(root=True)

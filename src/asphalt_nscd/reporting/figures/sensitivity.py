@@ -32,7 +32,7 @@ SYMBOLS = {"Em": r"$E_m$", "eta_m": r"$\eta_m$", "Ek": r"$E_k$", "eta_k": r"$\et
 def figure_of(parameter: str) -> Callable[..., Figure]:
     """The function that draws |E*| (a) and phase (b) against frequency for each factor on a parameter, and unchanged.
 
-    `parameter` is "Em", "eta_m", "Ek" or "eta_k". The law of the temperature of the study says which base to take.
+    `parameter` is "Em", "eta_m", "Ek" or "eta_k". Tests with it unchanged are those at the temperature of the one law.
     """
 
     @style.journal

@@ -20,7 +20,10 @@ COLUMN = 1000  # px, more than a journal's column of 90 mm has; a broader figure
 
 @dataclass(frozen=True)
 class Entry:
-    """A figure (PNG) or a table (the HTML page made of it) of a part of the report; `sources` hold its data."""
+    """A figure (PNG) or a table (the HTML page made of it); `sources` are files with its data.
+
+    `part` of the report begins with a number that orders the parts, "0 Diagnosis".
+    """
 
     part: str
     path: Path
@@ -58,6 +61,7 @@ def assemble(
 
 
 def _shown(entry: Entry, caption: Path, folder: Path) -> dict[str, Any]:
+    """What the template shows of an entry: name, title, caption, links, and its picture or the body of its page."""
     if not caption.is_file() or not entry.path.is_file():
         raise InputError(
             f"{entry.path if caption.is_file() else caption}: no such file; make it or check the path."

@@ -130,6 +130,7 @@ def _legend(figure: Figure, handles: Sequence[Any]) -> None:
 
 @style.journal
 def _law(master: fig_master.Master) -> Chart:
+    """Master curves of |E*| and phase with their caption."""
     plots = []
     for quantity, name in (("E", "|E*|"), ("phase", "phase angle")):
         figure, axes = page_figure(WIDTH, HEIGHT)
@@ -151,6 +152,7 @@ def _law(master: fig_master.Master) -> Chart:
 
 @style.journal
 def _specimens(master: fig_master.Master, means: pd.DataFrame) -> Chart:
+    """The Black diagram and |E*| over reduced frequency, points marked by specimen."""
     tests, mix = master.tests.assign(group=master.tests["specimen"]), master.mix
     names = list(tests["specimen"].unique())
     looks = dict(zip(names, style.kinds(len(names)), strict=True))
@@ -180,6 +182,7 @@ def _specimens(master: fig_master.Master, means: pd.DataFrame) -> Chart:
 
 
 def _draw_specimens(axes: Any, master: fig_master.Master, looks: dict[str, tuple[Any, str]]) -> None:
+    """Draw |E*| over reduced frequency, specimens by their `looks`."""
     for name, rows in master.tests.groupby("specimen"):
         panels.points(axes, rows["reduced_Hz"], rows["E_MPa"] * 1e-3, looks[str(name)], rows)
     panels.reduced_axis(axes, master.axis)
@@ -188,7 +191,7 @@ def _draw_specimens(axes: Any, master: fig_master.Master, looks: dict[str, tuple
 
 @style.journal
 def _causality(master: fig_master.Master, scatter: float) -> Chart:
-    """By specimen; `scatter` is that of the phase of one test, degrees."""
+    """A map for each specimen of how far phases lie from those required; `scatter` is that of one phase [deg]."""
     tests = master.tests
     error = np.hypot(tests["std_error_deg"], scatter)
     excess = (tests["phase_deg"] - tests["phase_required_deg"]) / error
@@ -224,6 +227,7 @@ def _marks(row: Mapping[str, Any]) -> list[str]:
 
 @style.journal
 def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: Mapping[str, Any], before: str) -> Chart:
+    """Maps of the residuals of |E*| and phase, before and after; `before` says what was modelled before."""
     plots = []
     for quantity, (name, unit) in {"E": ("|E*|", "%"), "phase": ("phase", "°")}.items():
         for when in BEFORE_AFTER:
@@ -243,6 +247,7 @@ def _residuals(tests: pd.DataFrame, means: pd.DataFrame, scatter: Mapping[str, A
 
 
 def _condition(row: Mapping[str, Any], tests: pd.DataFrame, shown: tuple[str, str, str, str]) -> str:
+    """What a cell says: the mean residual and each specimen's; `shown` is name, unit, column and before or after."""
     name, unit, column, when = shown
     own = tests[
         (tests["isotherm_C"] == row["temperature_C"]) & (tests["frequency_Hz"] == row["frequency_Hz"])

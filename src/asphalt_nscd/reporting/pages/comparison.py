@@ -92,6 +92,7 @@ def _interval(row: Any) -> str:
 
 
 def _difference(row: Any) -> Markup:
+    """By how much one mix is stiffer, with its interval; bold where the two are told apart."""
     # + 0.0: what is rounded to -0 is 0.
     middle, low, high = (
         f"{round(getattr(row, f'stiffer{end}_percent')) + 0.0:+.0f}" for end in ("", "_low", "_high")
@@ -111,6 +112,7 @@ def _stiffest(table: pd.DataFrame) -> str:
 
 
 def _row(row: Any) -> list[str]:
+    """Cells of a mix in the order of HEAD."""
     return [
         Markup('<a href="{}/{}">{}</a>').format(quote(folder_of(row.mix)), DIAGNOSIS, row.mix),
         "not said" if row.test == "unknown" else row.test,

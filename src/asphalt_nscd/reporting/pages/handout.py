@@ -205,6 +205,7 @@ def _grid(pdf: _Report, table: pd.DataFrame) -> None:
 
 
 def _interval(row: Any) -> str:
+    """Cell of |E*| and phase with their intervals; a star where no test was made near."""
     if pd.isna(row.E_MPa):
         return "not known"
     modulus = (
@@ -278,6 +279,7 @@ def _each_specimen(pdf: _Report, folder: Path) -> None:
 
 
 def _law(pdf: _Report, content: Mapping[str, Any]) -> None:
+    """Write the law of the mix with its parameters, if one was fitted."""
     found = law(content)
     if found is None:
         return

@@ -24,21 +24,21 @@ def life(course: Path) -> float:
 
 
 def factor(courses: list[Path]) -> float:
-    """By which cycles of the reference grow with bonds that give these samples EPSILON6, as the mean of log N."""
+    """Factor on the cycles of the courses by which the samples, in the mean of log N, bear a million at EPSILON6."""
     lives = np.array([life(path) for path in courses])
     return float(MILLION / np.exp(np.log(lives).mean()) * (REFERENCE / EPSILON6) ** (1 / SLOPE))
 
 
 def fatigue_law(courses: list[Path]) -> FatigueLaw:
-    """The law of the bonds that does."""
+    """The law of bonds that multiplies the cycles by `factor`."""
     return FatigueLaw(endured=REFERENCE * factor(courses) ** -SLOPE, exponent=-1 / SLOPE)
 
 
 def make(course: list[Path]) -> pd.DataFrame:
-    """A row for each sample and strain; course: of one sample each, at REFERENCE.
+    """A row for each sample and strain: life with bonds of `fatigue_law`; course: a file a sample, at REFERENCE.
 
-    Life falls with the power of the strain exactly: openings are proportional to the motion of the head, so that the
-    same damage takes as many times the cycles as one bond's does. A second strain needs no second run.
+    Openings are proportional to the motion of the head, so that a strain multiplies the cycles of every bond, and of
+    the sample, by the same power of it. A second strain needs no second run.
     """
     grows = factor(course)
     rows = [

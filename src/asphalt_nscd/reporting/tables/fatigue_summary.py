@@ -14,7 +14,7 @@ from asphalt_nscd.specimen.cutting import read_specimen
 
 
 def make(course: list[Path], profile: list[Path], check: list[Path], specimen: list[Path]) -> pd.DataFrame:
-    """what, here, beside; check: courses of a small sample, by jumps, by finer ones and by every cycle."""
+    """A row for each number, and what stands beside; check: a small sample by jumps, by finer ones, by every cycle."""
     geometry = read_specimen(specimen[0]).geometry
     assert isinstance(geometry, Geometry)
     logs = np.log10([fatigue.life(path) for path in course])

@@ -40,8 +40,8 @@ def make(
 
     likely: tests of one sample, by the likeliest reading of the paper; a rung below all others.
     facets: the tests of `simulations` with bonds that are facets; where there are none, those have them already.
-    extended: with what the diagnosis named as well. law: the error of the law that this campaign has in its bonds;
-    held_out: of the law of all temperatures, fitted without this one; scatter: of one test.
+    extended: with what the diagnosis named as well. Columns with law: errors of the law that a campaign has in its
+    bonds; held_out: of the law of all temperatures, fitted without this one; scatter: of one test.
     """
     data, content = read_measured(measured), read_json(only_file(diagnosis, "diagnosis"))
     campaigns: dict[str, Sequence[Path]] = {LIKELIEST: likely} if likely else {}

@@ -15,8 +15,8 @@ from asphalt_nscd.reporting.tables.table2 import COUNT, PERCENT, SIEVE
 def make(grading: list[Path], used: list[Path]) -> pd.DataFrame:
     """One row for each sieve, coarse first: passing and retained in percent, spheres of that diameter and their share.
 
-    spheres: number poured, none where a sieve belongs to the mastic. retained_shown_percent: what the sieve retains of
-    all that spheres stand for; volume_percent: of the spheres, theirs.
+    spheres: number poured, none where a sieve belongs to the mastic. retained_shown_percent: share of the sieve in all
+    that spheres stand for; volume_percent: share of its spheres in the volume of all.
     """
     sieves = read_csv(only_file(grading, "grading"))
     sieves.require(["diameter_mm", "passing_percent"])

@@ -46,6 +46,7 @@ def make(
 
 
 def _row(scheme: str, tolerance: float, test: pd.Series, solution: pd.Series) -> dict[str, object]:
+    """A row of the table: a test by a scheme beside its solution."""
     ratio, apart = test["E_MPa"] / solution["E_MPa"], test["phase_deg"] - solution["phase_deg"]
     return {
         "scheme": scheme,
