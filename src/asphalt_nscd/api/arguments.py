@@ -75,6 +75,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def _require(called: str, value: Any, annotation: Any, names: Mapping[str, Any]) -> None:
+    """Refuse a value of no kind of its annotation; `called` names it, `names` are the globals of the function."""
     # "tuple[float, float] | None" is two kinds; what stands in brackets is one.
     kinds = re.split(r" \| (?![^\[]*\])", annotation) if isinstance(annotation, str) else ["Any"]
     known = [found for kind in kinds if (found := _kind(kind, names))]
@@ -110,6 +111,7 @@ def _kind(kind: str, names: Mapping[str, Any]) -> tuple[Any, str] | None:
 
 
 def _fits(value: Any, kind: str, names: Mapping[str, Any]) -> bool:
+    """Whether a value is of a kind, a tuple in all its parts; not where the kind is not known."""
     found = _kind(kind, names)
     # True is a number to Python, and never meant as one.
     if found is None or isinstance(value, bool) or not isinstance(value, found[0]):

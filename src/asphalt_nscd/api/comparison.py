@@ -283,6 +283,7 @@ def _part_of(progress: Progress, mixes: int, total: int, _: str, done: float, st
 
 
 def _named(mixes: Mapping[str, Measurements] | Sequence[str | Path]) -> dict[str, Measurements]:
+    """What to diagnose, by the name of the mix; refuses fewer than two, or two of one name."""
     paths: dict[str, Measurements] = {}
     if isinstance(mixes, Mapping):
         paths |= mixes

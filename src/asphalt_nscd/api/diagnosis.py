@@ -145,7 +145,7 @@ class Diagnosis:
         Returns
         -------
         DataFrame
-            One row for each: specimen, temperature_C, frequency_Hz, used, reasons.
+            One row for each: specimen, temperature_C, frequency_Hz, status, reasons, decided_by.
         """
         rows = [{**one, "reasons": "; ".join(one["reasons"])} for one in self.content["suspect_tests"]]
         names = ["specimen", "temperature_C", "frequency_Hz", "status", "reasons", "decided_by"]
@@ -292,7 +292,7 @@ class Diagnosis:
         return text
 
     def write(self, folder: str | Path) -> str:
-        """Write diagnosis.json, residuals.csv, causality.csv and law.json.
+        """Write diagnosis.json, residuals.csv, causality.csv, law.json and what is reported of the mix.
 
         Parameters
         ----------
@@ -382,6 +382,7 @@ _LADDER = [
 
 
 def _rung(rung: Mapping[str, Any]) -> dict[str, Any]:
+    """A row of the ladder, in the columns of _LADDER."""
     # A cause gives its amplitude first (`causes._cause.Cause`).
     name, amplitude = next(iter(rung["parameters"].items()))
     inside = mean_averages(rung["gain"]["in_sample"])

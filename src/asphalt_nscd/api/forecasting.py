@@ -59,7 +59,7 @@ class Forecast:
         Returns
         -------
         DataFrame
-            One row for each point and rival.
+            One row for each point: |E*| [MPa] and phase [degrees] of the forecast and of each rival.
         """
         return written.rival_points(self.found)
 

@@ -37,7 +37,7 @@ def read(
       phase_deg (or F0_N, z0_m and psi_deg), and what else the machine gave. `attrs["notes"]` says how it was read.
     * A folder with a diagnosis.json, or that file: a Diagnosis.
     * A law (JSON): a Law.
-    * A result file of the simulation (HDF5): a Packing, a Specimen or a Test.
+    * A result file of the simulation (HDF5): a Packing, a Specimen, a Test or a Failure.
 
     Parameters
     ----------
@@ -54,7 +54,7 @@ def read(
 
     Returns
     -------
-    DataFrame, Law, Diagnosis, Packing, Specimen or Test
+    DataFrame, Law, Diagnosis, Packing, Specimen, Test or Failure
         By what the source holds, as above.
 
     Raises

@@ -44,7 +44,7 @@ class Result:
 
         Returns
         -------
-        Packing, Specimen or Test
+        Packing, Specimen, Test or Failure
             Of the class that reads.
 
         Raises
