@@ -122,6 +122,7 @@ def _checked(job: Any, step: Callable[[Any], object]) -> None:
 
 
 def _end(step: Callable[[], object]) -> NoReturn:
+    """Take a step and end the process with its status; within the workflow its CPU time and memory end the log."""
     if os.environ.get(WITHIN_WORKFLOW) and sys.platform == "linux":
         # PR_SET_PDEATHSIG: the kernel ends this step when Snakemake dies, however it dies.
         prctl_set_death_signal = 1
@@ -151,6 +152,7 @@ def _run(arguments: list[str]) -> None:
 
 
 def _status(step: Callable[[], object]) -> int:
+    """The exit status of a step: 0, or that of a refusal, whose sentence is printed. What is our fault is raised."""
     try:
         step()
     except click.ClickException as error:

@@ -65,7 +65,7 @@ def _options_in(kind: Any, names: Any = Parameter.empty) -> Iterator[Option]:
 
 
 def _made(kind: Any, values: Mapping[str, Any]) -> Any:
-    """The dataclass of what was given."""
+    """The dataclass `kind` of the values that click gives by name; fields not offered keep their defaults."""
     given = {
         name: declared.stored(values[_name(declared)])
         for name, declared in options_of(kind).items()
@@ -76,7 +76,7 @@ def _made(kind: Any, values: Mapping[str, Any]) -> Any:
 
 
 def _name(declared: Option) -> str:
-    """Of a parameter of click."""
+    """Name of click's parameter for an option."""
     return declared.key.lower()
 
 
@@ -107,7 +107,7 @@ def _is_repeated(declared: Option) -> bool:
 
 
 def _type(declared: Option) -> Any:
-    """The type of click, for one of several."""
+    """Click's type of an option, or of each of its values where it takes several."""
     kind = get_args(declared.annotation)[0] if _is_repeated(declared) else declared.annotation
     limits = {name: declared.given(limit) for name, limit in declared.range.limits.items()}
     if declared.type is not None:

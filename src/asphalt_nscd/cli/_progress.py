@@ -17,7 +17,7 @@ SHORT = 1.0  # s; a stage that takes less shows nothing, and most tests are one:
 def bars(unit: str, on_terminal: bool = False) -> Iterator[Callable[[str, float, float], None]]:
     """Yield report(stage, done, total); a change of stage opens a new bar.
 
-    on_terminal: nothing is shown elsewhere, and more often there.
+    `on_terminal` shows bars on a terminal alone, and often; else they go into a log too, a line in five seconds.
     """
     bar: tqdm | None = None
     shown, began = "", time.time()

@@ -61,7 +61,6 @@ def command(
     heading = replace(
         heading, **{name: text for name, text in campaign.stated.items() if not getattr(heading, name)}
     )
-    # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
     title = f"Diagnosis of {', '.join(path.name for path in measurements)}"
     if has_no_phase(campaign):
         if known.law != Known.law:
@@ -71,6 +70,7 @@ def command(
         curve = fit_stiffness(campaign)
         names = curve.write(output)
         if page:
+            # By name: a study, which makes its own page, need not diagnose anew because a figure has changed.
             shown = _data.part("reporting.pages", "stiffness_page")
             names.append(shown.write_page(output, title, curve.rows).name)
         click.echo(f"{curve}\n\nWritten to {output}: {', '.join(names)}.")
