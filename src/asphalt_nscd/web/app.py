@@ -117,7 +117,7 @@ def create_app(token: str | None = None) -> Flask:
 
     @app.before_request
     def refuse_strangers() -> None:
-        """No other machine, no other page in the browser, and nobody without the token."""
+        """Refuse other machines, other pages in the browser, and whoever lacks the token."""
         # A name of a stranger's may be pointed at 127.0.0.1 (DNS rebinding); the Host header then holds that name.
         host = request.host.rpartition(":")[0] or request.host
         if host not in ("127.0.0.1", "localhost"):
@@ -133,6 +133,7 @@ def create_app(token: str | None = None) -> Flask:
 
     @app.after_request
     def guarded(response: Response) -> Response:
+        """Tell the browser to load nothing from elsewhere, and to keep nothing."""
         response.headers.update(
             {
                 "Content-Security-Policy": POLICY,
@@ -145,6 +146,7 @@ def create_app(token: str | None = None) -> Flask:
 
     @app.errorhandler(HTTPException)
     def error_response(error: HTTPException) -> tuple[Response, int]:
+        """A refusal as the page reads it, with what to do where too much was dropped."""
         said = str(error.description)
         # Too many parts of a form have the same code as too many bytes.
         if error.code == 413 and (request.content_length or 0) <= app.config["MAX_CONTENT_LENGTH"]:
@@ -257,6 +259,7 @@ def _idle(desk: Desk, files: bool = False) -> Desk:
 
 
 def _given() -> list[Any]:
+    """The files that the page sends; refuses none, too many, other endings and two of one name."""
     given = [one for one in request.files.getlist("files") if one.filename]
     if not given or len(given) > MOST_FILES:
         abort(400, f"give between one and {MOST_FILES} files")

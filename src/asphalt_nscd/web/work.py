@@ -99,7 +99,7 @@ class Job:
 def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, output: Path | None) -> None:
     """In the new process: the task, and its result or one sentence through the pipe."""
     threading.Thread(target=_end_with_the_server, daemon=True).start()
-    # Before numpy is loaded, which looks at them once.
+    # For libraries that load later; numpy came with this module, and looked at those of the server.
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ[name] = "1"
     os.environ[ON_PAGE] = "1"
@@ -125,7 +125,7 @@ def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, outpu
 
 
 def _end_with_the_server() -> None:
-    """A server that was killed cannot stop its jobs."""
+    """End this process when the server ends: one that was killed cannot stop its jobs."""
     server = multiprocessing.parent_process()
     if server is not None:
         server.join()
@@ -215,7 +215,7 @@ def _rounded(value: str | float) -> str:
 
 
 def _missing_unit(quantity: str) -> str:
-    """In place of a unit that a column does not say; empty where the quantity has none."""
+    """What the page shows for the unit that a column does not say; empty where the quantity has none."""
     from asphalt_nscd.table_import.quantities import MEASURED
 
     return "not said" if quantity in MEASURED and MEASURED[quantity][1] else ""
@@ -280,7 +280,7 @@ def _export(output: Path) -> None:
 
 
 def _compared(paths: Sequence[Path], choices: Choices, output: Path, progress: Any) -> dict[str, Any]:
-    """Two mixes, whose files lie in two folders, beside each other; what was chosen holds for the first."""
+    """Two mixes, whose files lie in two folders, beside each other; columns that were chosen are those of the first."""
     from asphalt_nscd.api.comparison import compare
 
     mixes: dict[str, Any] = {}
