@@ -154,7 +154,7 @@ def _begin(name: str, diagnosis: Diagnosis) -> _Campaign | None:
 def _evidence(campaign: _Campaign, causes: Sequence[Cause], parts: NDArray | None = None) -> _Evidence:
     """What a campaign says of the amplitudes of causes, the discrepancy estimated beside the last of them.
 
-    With `parts` (n, k): of the last cause alone, with an amplitude for each column, which says what tests it is of.
+    With `parts` (n, k), the share of each test in k parts: of the last cause alone, with an amplitude in each part.
     """
     state, observed = campaign.state, campaign.state.plain.observed
     size, shown = len(causes), [k for k, cause in enumerate(causes) if cause.places(observed)]

@@ -215,7 +215,7 @@ def _discrepancy(
 
 
 def _variance(process: Process, sizes: Mapping[Process, float], tested: Vector) -> float:
-    """Of a process: as fitted; at a new isotherm between its neighbours', of a new specimen the mean of its kind."""
+    """Variance of a process: as fitted; at a new isotherm between its neighbours', else the mean of its kind."""
     if process in sizes:
         return sizes[process] ** 2
     if process.isotherm is not None:

@@ -26,7 +26,7 @@ def put_right(observed: Observations, out: NDArray[np.bool_]) -> tuple[NDArray[n
     """Tests (n,) to leave out, and tests (n,) of turned sweeps, of which others are left out than causality says.
 
     `out` (n,) is what causality takes out. A sweep is turned if that is half of it or more, or holds only tests on the
-    level of their specimen, or one clearly on it; and if tests that stay are far off the level, half of it at most.
+    level of their specimen, or one clearly on it; and if tests that it leaves are far off, as half of it is at most.
     """
     now, turned = out.copy(), np.zeros(observed.size, bool)
     block, apart = blocks(observed), _level_distance(observed)
@@ -81,8 +81,8 @@ def _two_stand_out(distance: NDArray[np.float64], doubtful: NDArray[np.bool_]) -
 def _level_distance(observed: Observations, out: NDArray[np.bool_] | None = None) -> NDArray[np.float64]:
     """How far (n,) a test is off the other specimens at its condition, in usual departures of the table.
 
-    What the specimen is off by on its other isotherms, a level and a phase, is taken off first. No sweep with a test
-    that is `out` (n,) is held against another. Zero where there is no other specimen, or no other isotherm.
+    What the specimen is off by on its other isotherms, a level and a phase, is taken off first. A sweep with a
+    test that is `out` (n,) is no reference. Zero where there is no other specimen, or no other isotherm.
     """
     logarithm = observed.logarithm
     values = np.column_stack([logarithm.real, logarithm.imag])

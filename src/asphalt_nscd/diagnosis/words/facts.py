@@ -160,7 +160,7 @@ def misses(
 
 
 def made_worse(before: Sequence[float], after: Sequence[float]) -> list[str]:
-    """Which errors, of |E*| and of the phase, are larger after than before by more than WORSE or AT_ALL."""
+    """Which errors, of |E*| and of the phase, are larger after than before, by more than both WORSE and AT_ALL."""
     pairs = zip(("|E*|", "the phase"), before, after, strict=True)
     return [part for part, was, now in pairs if now > max(WORSE * was, was + AT_ALL)]
 
