@@ -68,7 +68,7 @@ class _Steps(click.Group):
         return import_module(f"{__name__}.{name.replace('-', '_')}").command
 
     def format_commands(self, context: click.Context, formatter: click.HelpFormatter) -> None:
-        """What users type first; the steps of the workflow below, in a group of their own."""
+        """List what users type first, and the steps of the workflow below, in a group of their own."""
         names = self.list_commands(context)
         first = [name for name in _FIRST if name in names]
         others = [name for name in names if name not in first]

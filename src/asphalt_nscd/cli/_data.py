@@ -18,7 +18,7 @@ PAIRS: Any = option("", (), type=Pair("kind=path"))
 
 
 def made_from(data: Iterable[tuple[str, Path]], make: Callable[..., Any]) -> Any:
-    """What `make` gives of all paths of each kind, once the kinds are known to be those it takes."""
+    """What `make` returns for all paths by their kind; refuses kinds that it does not take, and the lack of one."""
     kinds: dict[str, list[Path]] = {}
     for kind, path in data:
         kinds.setdefault(kind, []).append(path)

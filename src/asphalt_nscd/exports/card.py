@@ -182,7 +182,7 @@ def number(value: float) -> str:
 
 
 def _short(value: float) -> str:
-    """Two digits, rounded up: an error is never understated."""
+    """A number in two digits, rounded up: an error is never understated."""
     if value < ROUNDING:
         return f"less than {ROUNDING:g}"
     return f"{float(Context(prec=2, rounding=ROUND_UP).create_decimal(Decimal(value))):.2g}"

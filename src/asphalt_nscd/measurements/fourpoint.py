@@ -78,7 +78,7 @@ class Beam(Shape):
         return normal, np.concatenate([[self.h, 0.0], half])
 
     def gyration(self) -> NDArray[np.float64]:
-        """Of a thin rectangle, depth x breadth."""
+        """Squared radii of gyration (3,) [m2] of a thin rectangle, depth x breadth."""
         x2, y2 = self.depth**2, self.breadth**2
         return np.array([y2, x2, x2 + y2]) / 12.0
 

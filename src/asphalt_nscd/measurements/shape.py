@@ -71,7 +71,7 @@ class Shape(ABC):
         return {key: float(f"{1e3 * x:.10g}") if key.endswith("_mm") else x for key, x in values}
 
     def attributes(self) -> dict[str, Any]:
-        """What a file says of it; `geometry.shape_of` reads it."""
+        """The shape as attributes of a file; `geometry.shape_of` reads them."""
         return {"geometry": self.test, **asdict(self)}  # type: ignore[call-overload]
 
     @property
@@ -86,7 +86,7 @@ class Shape(ABC):
 
     @property
     def plates(self) -> tuple[Plate, ...]:
-        """Those that move, then those that rest: here the head, driven along the axis, and the foot."""
+        """The plates that move, then those that rest: here the head, driven along the axis, and the foot."""
         driven = tuple(DRIVEN if k == self.axis else FREE for k in range(6))
         return Plate(self.h, driven, 1.0), Plate(0.0, (HELD,) * 6, 0.0)
 

@@ -62,7 +62,7 @@ class Cylinder(Shape):
         return normal, np.concatenate([[self.h, 0.0], np.full(SIDES, apothem)])
 
     def gyration(self) -> NDArray[np.float64]:
-        """Of a thin disc."""
+        """Squared radii of gyration (3,) [m2] of a thin disc."""
         return self.d**2 * np.array([1.0 / 16.0, 1.0 / 16.0, 1.0 / 8.0])
 
     def form_factor(self) -> float:

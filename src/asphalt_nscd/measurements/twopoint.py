@@ -61,12 +61,12 @@ class Geometry(Shape):
 
     @property
     def width(self) -> float:
-        """Of the foot [m]."""
+        """Width of the foot [m]."""
         return self.B
 
     @property
     def thickness(self) -> float:
-        """e [m]."""
+        """Thickness e [m]."""
         return self.e
 
     def faces(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -78,7 +78,7 @@ class Geometry(Shape):
         return normal, np.array([self.h, 0.0, half, half, self.e / 2.0, self.e / 2.0])
 
     def gyration(self) -> NDArray[np.float64]:
-        """Of a thin rectangle b x e."""
+        """Squared radii of gyration (3,) [m2] of a thin rectangle b x e."""
         b2, e2 = self.b**2, self.e**2
         return np.array([e2, b2, b2 + e2]) / 12.0
 

@@ -16,7 +16,7 @@ class Layout(Protocol):
         """Whether the sheets of a file together, or one of them, have this layout."""
 
     def read(self, sheets: Sequence[Sheet], chosen: Mapping[str, str]) -> list[Block]:
-        """Their tests; `chosen` has the columns that the user named by what they hold."""
+        """The tests of the sheets; `chosen` has the columns that the user named by what they hold."""
 
 
 LAYOUTS: tuple[Layout, ...] = (matrices, machine_exports, rows_of_tests)

@@ -190,7 +190,7 @@ def _below(rows: list[Row], called: str) -> Iterator[_Matrix]:
 
 
 def _columns(sheets: Sequence[Sheet]) -> dict[str | None, list[_Matrix]]:
-    """By sheet, tables with a column for each specimen, if those of a file give more than one quantity."""
+    """By sheet, tables with a column for each specimen, if those of a file give several quantities; else none."""
     held = {sheet.name: list(_of_specimens(sheet.rows)) for sheet in sheets}
     several = len({name for own in held.values() for one in own for name in one.names}) > 1
     return held if several else {}

@@ -59,7 +59,7 @@ class Part:
 
     @cached_property
     def tests(self) -> list[Test]:
-        """What tells each test from others."""
+        """For each test the cells that tell it from others."""
         # A retest has the same target; its readings are a few tenths off.
         target = "nominal_temperature_C" in self.read.table.columns
         temperature = "nominal_temperature_C" if target else "temperature_C"

@@ -69,7 +69,7 @@ def _block(shape: Shape) -> float:
 
 
 def _box(geometry: Shape, counts: pd.Series) -> tuple[float, float, float]:
-    """As long and wide as the specimen, and so high that the lattice (`random_lattice`) is as loose as the paper's."""
+    """A box [m] as long and wide as the specimen, as high as `random_lattice` needs to be as loose as the paper's."""
     diameter = counts.index.to_numpy(float) * 1e-3
     if diameter.max() > geometry.thickness:
         raise InputError(

@@ -28,7 +28,7 @@ _NUMBERED = re.compile(r"[\s_.#-]*(?:\d{1,3}|(?<=[\s_-])[A-Z]\d{0,3})$")
 
 
 def unknown_names(sheets: Sequence[Sheet]) -> dict[str, dict[str, str]]:
-    """By quantity that no name of a file gives: the unknown names whose unit fits it, with this unit."""
+    """For each quantity that no name in a file gives, the unknown names whose unit fits it, with this unit."""
     names = [name for sheet in sheets for name in _names(sheet.rows)]
     given = {quantity_of(strip_conditions(name)) for name in names}
     given |= {quantity_of(key) for name in names for key in read_heading(name).at}

@@ -11,7 +11,7 @@ SAY = {name: tuple(words.split()) for name, words in WORDS["say"].items()}
 
 
 def pattern(*names: str, before: str = r"(?<!\w)", behind: str = r"(?!\w)") -> re.Pattern[str]:
-    """What finds one of the words that `say` has under these names."""
+    """A pattern that finds one of the words that SAY has under these names."""
     words = "|".join(word for name in names for word in SAY[name])
     return re.compile(rf"{before}(?:{words})\b\.?{behind}", re.IGNORECASE)
 

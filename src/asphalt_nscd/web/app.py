@@ -292,7 +292,7 @@ def _told(job: Job) -> dict[str, Any]:
 
 
 def _choices(content: Any) -> Choices:
-    """What came from the menus, no more than these hold."""
+    """The choices in what the page sends; refuses what its menus do not hold."""
     if not isinstance(content, dict):
         return Choices()
     kind, law = content.get("measured_in") or None, content.get("law") or "2s2p1d"

@@ -97,7 +97,7 @@ class Job:
 
 
 def _run(pipe: Connection, task: str, paths: list[Path], choices: Choices, output: Path | None) -> None:
-    """In the new process: the task, and its result or one sentence through the pipe."""
+    """Do a task in the new process, and send its result or one sentence through the pipe."""
     threading.Thread(target=_end_with_the_server, daemon=True).start()
     # For libraries that load later; numpy came with this module, and looked at those of the server.
     for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):

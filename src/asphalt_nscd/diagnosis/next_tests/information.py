@@ -178,7 +178,7 @@ class Inquiry:
 
 
 def _counted(tests: Tested, kept: NDArray[np.bool_]) -> Tested:
-    """Those of the tests that count."""
+    """The tests whose rows in the model are `kept`."""
     if kept[tests.rows].all():
         return tests
     at = np.flatnonzero(kept[tests.rows])

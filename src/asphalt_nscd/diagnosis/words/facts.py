@@ -237,13 +237,13 @@ def highest_departure(one: Content) -> str:
 
 
 def sole_specimen(trust: Content) -> str:
-    """That only one specimen of several has tests that can be used, where this is so."""
+    """Words for the only specimen of several with tests that can be used; empty where more have some."""
     of = [name for name, count in trust["use_by_specimen"].items() if count]
     return f" (of {specimen_named(of[0])} only)" if len(of) == 1 < len(trust["use_by_specimen"]) else ""
 
 
 def all_of(trust: Content) -> str:
-    """What the tests to be checked have in common, where they have something."""
+    """Words for what all tests to be checked have in common, isotherms or specimens; else empty."""
     if trust["check_at_C"]:
         return f" (all at {numbers(trust['check_at_C'])} degC)"
     return f" (all of {joined(list(map(specimen_named, trust['check_of'])))})" if trust["check_of"] else ""

@@ -40,7 +40,7 @@ class Master:
 
     @property
     def isotherms(self) -> list[float]:
-        """Those tested [degC]."""
+        """The isotherms tested [degC]."""
         return sorted(self.tests["isotherm_C"].unique())
 
     @property
@@ -66,12 +66,12 @@ class Master:
 
     @property
     def points(self) -> str:
-        """What its points are."""
+        """What the points show, in words."""
         return f"tests less the {joined(self.corrected)}" if self.corrected else "tests as they were measured"
 
     @property
     def axis(self) -> str:
-        """What its frequencies are."""
+        """What the frequency axis shows, in words."""
         return (
             f"reduced frequency (Hz), at {numbers.celsius(self.reference)}"
             if self.shift

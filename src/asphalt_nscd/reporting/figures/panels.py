@@ -169,6 +169,6 @@ def marked(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 def isotherm_of(temperature: pd.Series, stated: Sequence[float]) -> np.ndarray:
-    """Of the stated isotherms [degC] the nearest to the temperature measured in each specimen (n,)."""
+    """Isotherm (n,) of each test: the one of those `stated` [degC] that is nearest to its temperature (n,)."""
     nominal = np.array(sorted(stated))
     return nominal[np.abs(temperature.to_numpy()[:, None] - nominal).argmin(axis=1)]

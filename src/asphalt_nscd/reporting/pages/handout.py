@@ -159,13 +159,13 @@ def _tested(content: Mapping[str, Any], heading: Heading) -> list[tuple[str, str
 
 
 def _resting_on(trust: Mapping[str, Any]) -> str:
-    """On how many doubtful tests the values rest, a sentence; empty where there are none."""
+    """A sentence on how many tests, and how many doubtful ones, the values rest; empty where none is doubtful."""
     doubtful = trust["check"] - trust["held_back"]
     return f" They rest on {trust['use'] + doubtful} tests, {doubtful} of them doubtful." if doubtful else ""
 
 
 def _explained(master: fig_master.Master) -> str:
-    """What line, band and points are."""
+    """Sentences on what line, band and points of the pictures are."""
     law = " Dashed: the law below, of few parameters, for other programs." * (master.law is not None)
     return (
         "In brackets: 95 % intervals. The line and its band are the mix, of which all values below are: certain faults "
@@ -215,7 +215,7 @@ def _interval(row: Any) -> str:
 
 
 def _findings(content: Mapping[str, Any], wanted: Sequence[str]) -> list[tuple[str, str]]:
-    """Of the answer the rows with a label of `wanted`, as they are printed."""
+    """Rows of the answer with a label of `wanted`, without sentences that are for the laboratory alone."""
     kept = [
         (label, [one for one in said if not any(word in one for word in FOR_THE_LABORATORY)])
         for label, said in Words(content).rows()

@@ -46,7 +46,7 @@ def typeset(cell: object) -> str:
 
 
 def unbroken(cell: object) -> Markup:
-    """The same for a page, where an option of the command line stays in one line."""
+    """A cell typeset for a page, where an option of the command line stays in one line."""
     return Markup(OPTION.sub(r'<span class="option">\g<0></span>', str(escape(typeset(cell)))))  # noqa: S704  escaped
 
 
