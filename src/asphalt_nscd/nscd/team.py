@@ -37,7 +37,7 @@ def _pointer(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any
 
 @intrinsic
 def _add(typing_context: Any, array: Any, at: Any, value: Any) -> Any:
-    """Add to an element of an int64 array as one action; what it was before."""
+    """Add to an element of an int64 array as one action; gives what it was before."""
 
     def code(context: Any, builder: ir.IRBuilder, signature: Any, arguments: Any) -> ir.Value:
         at = _pointer(context, builder, signature, arguments)
@@ -89,7 +89,7 @@ def mark_started(barrier):
 
 @compiled_for_teams
 def _reached(count, at, number, most_looks):
-    """Wait until a count is at least `number`; False if it is not yet after so many looks (0: however many)."""
+    """Wait until a count is at least `number`; False if it is not after `most_looks` looks, 0 being no limit."""
     looks = 0
     while _read(count, at) < number:
         looks += 1

@@ -185,7 +185,7 @@ class World:
     def _openings(
         self, position: np.ndarray, rotation: Rotation
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """(U (3 b,) [m], axes (b, 3, 3), place (b, 3) [m]) of the bonds where spheres stand so."""
+        """(U (3 b,) [m], axes (b, 3, 3), place (b, 3) [m]) of the bonds at these places and rotations of spheres."""
         first, second = self.bonds.first, self.bonds.second
         if not first.size:
             return np.empty(0), np.empty((0, 3, 3)), np.empty((0, 3))
@@ -250,7 +250,7 @@ class _Contacts:
 
     @classmethod
     def near(cls, world: World) -> _Contacts:
-        """Those of spheres that no bond joins, as they stand at the start of the step."""
+        """Pairs of spheres that no bond joins, or of a sphere and a plane, as they stand at the start of the step."""
         around, radius, n = world.around, world.radius, world.radius.size
         speed = np.linalg.norm(world.velocity.reshape(-1, 6)[:, :3], axis=1).max()
         # twice as far as the two fastest could approach each other, and a margin

@@ -84,7 +84,7 @@ class PackedBonds:
         return reaction, motion[:, :6].ravel()[: self.size], sweeps, change
 
     def _rows_by_body(self, values: np.ndarray, nobody: int) -> np.ndarray:
-        """Values (d,) in a row of eight for each body, and a row of zeros for what stands still."""
+        """Values (d,) in a row of eight for each body, the last two zero; a last row of zeros for what stands still."""
         rows = aligned((nobody + 1, WIDTH))
         six = np.zeros(6 * (nobody + 1))
         six[: self.size] = values

@@ -10,8 +10,8 @@ def follow_actuator(devices, dt, free_force, impedance, actuator, x, v):
     """Velocity v+ of the head [m/s] and force r of the slider [N] by the balance of `head`.
 
     At rest on a rigid clamp the slider's force is undetermined and taken as zero. `free_force` F0 [N] is that of the
-    specimen on a head that stands still, `impedance` is Z [N s/m]; the `actuator` [m] stands there at the end of the
-    step `dt` [s], the head at `x` [m] with `v` [m/s] at its start.
+    specimen on a head that stands still, `impedance` is Z [N s/m]; `actuator` [m] is its place at the end of the step
+    `dt` [s], `x` [m] and `v` [m/s] are those of the head at its start.
     """
     clamp, spring, slider, mass = devices
     push = clamp * (free_force - mass * v / dt + spring * x) + x - actuator

@@ -80,7 +80,7 @@ class LawStep(ABC):
         """Memory (m, ...) at the end, from sigma+ [N/m], U+ [m/s] and the memory at the start.
 
         The reduced model asks that each variable depends on none of the others: dk+ = decay dk- - gain sigma+ -
-        follow U+. Coupled ones are that in the coordinates of their eigenvectors.
+        follow U+. Coupled variables are independent in the coordinates of their eigenvectors.
         """
 
     def update(self, explicit: np.ndarray, velocity: np.ndarray, memory: np.ndarray) -> Stresses:
@@ -184,7 +184,7 @@ class BondLaws(_Chains):
     def of_bonds(
         cls, table: Sequence[BondLaw], normal: np.ndarray, tangential: np.ndarray | None = None
     ) -> BondLaws:
-        """Laws from places (b,) in `table`; the tangential law is the normal one if `tangential` is None."""
+        """Laws of bonds by places (b,) in `table`; the tangential law is the normal one if `tangential` is None."""
         tangential = normal if tangential is None else tangential
         return cls(tuple(table), np.column_stack([normal, tangential, tangential]).ravel())
 

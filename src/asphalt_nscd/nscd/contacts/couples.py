@@ -18,8 +18,8 @@ def solve_with_couples(
 
         |m| <= arm r_n,    m opposite to the angular velocity where they reach it, none where they do not.
 
-    Forces and couples are solved in turn: forces with couples that follow them where those are below their limit, and
-    stay where they are not. ArithmeticError where they do not settle.
+    Forces and couples are solved in turn: forces with couples that prevent turning where these are below their limit,
+    and keep their value where they are at it. ArithmeticError where they do not settle.
     """
     split, couples, following = 3 * mu.size, np.zeros(3 * mu.size), np.ones(3 * mu.size, bool)
     crossed, among, own = W[:split, split:], W[split:, split:], np.arange(split).reshape(-1, 3)

@@ -138,7 +138,7 @@ def sweep_once(start, other, block, q, friction, r):
 
 @compiled
 def natural_map(start, other, block, q, friction, length, part, r):
-    """Two errors of reactions `r` (3 c,) [N s], as Siconos states it and free of units; infinite where r is.
+    """Two errors of reactions `r` (3 c,) [N s], as Siconos states it and free of units; infinite if a value is.
 
     |r - P_K(r - (u + mu |u_T| n))| / max(|q|, |r|, |u|) adds impulses to velocities, so that it depends on the units,
     and becomes small where reactions grow without end. The second takes r / sqrt(rho) and u sqrt(rho), both square

@@ -17,7 +17,7 @@ def refine(
 ) -> tuple[np.ndarray, int]:
     """Reactions (3 c,) [N s] after Newton steps, each of which reduces |F|, and the number of steps.
 
-    They end when both errors are below `tolerance` or progress is slow.
+    Steps end when both errors are below `tolerance` or progress is slow.
     """
     weight = np.repeat(1.0 / np.sqrt(problem.length), 3)
     scale = max(

@@ -109,8 +109,8 @@ class ContactProblem:
     def factor(self, block: np.ndarray, pressed: np.ndarray | None = None) -> SuperLU | None:
         """Factors of the matrix with `block` (blocks, 3, 3) in the places of W, or None if it is singular.
 
-        It has the rows and columns of contacts `pressed` (c,), all if None. `.solve(right, "T")` solves with it: what
-        are rows here are columns to SuperLU, which saves a transposition.
+        The matrix keeps rows and columns of contacts `pressed` (c,), all if None. `.solve(right, "T")` solves with it:
+        what are rows here are columns to SuperLU, which saves a transposition.
         """
         matrix = sparse.bsr_array((block, self.other, self.start), shape=self.matrix.shape).tocsr()
         if pressed is not None:

@@ -146,7 +146,7 @@ def unpack_motion(motion, begin, end, velocity):
 def lay_in(rank, members, barrier, impulse, pair, contacts):
     """Put impulses (pairs, 3) [N s] from the list of pairs into blocks of contacts; run by all members.
 
-    They stay there as long as the list does. `pair` (8 b,) is the place in the list, -1 for a lane left over: zeros.
+    They stay there as long as the list does. `pair` (8 b,) is the place of each lane in the list; -1, left over: zeros.
     """
     mark_started(barrier)
     begin, end = partition(rank, members, pair.shape[0] // WIDTH)
@@ -159,7 +159,7 @@ def lay_in(rank, members, barrier, impulse, pair, contacts):
 
 @compiled_for_teams
 def take_out(rank, members, barrier, impulse, pair, contacts):
-    """Impulses [N s] from the blocks of contacts to the list of pairs, written: the reverse of `lay_in`."""
+    """Write impulses [N s] of the blocks of contacts to `impulse` (pairs, 3), of the list: the reverse of `lay_in`."""
     mark_started(barrier)
     begin, end = partition(rank, members, pair.shape[0] // WIDTH)
     for block in range(begin, end):

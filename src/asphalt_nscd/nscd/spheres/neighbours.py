@@ -93,8 +93,8 @@ def closing_speeds(team, position, radius, velocity, reach):
     """Bounds (n,) [m/s] of the speeds at which each sphere and its neighbours within `reach` [m] may close in.
 
     Only spheres that are not larger count, as in find_pairs. The bound is the range of velocities, the sphere's own
-    among them, in thin horizontal slabs: grains that rain at the same speed, or rest together, do not close in. Of the
-    range, not of its own: an impact may stop the sphere, or hand on its speed, within the step.
+    among them, in thin horizontal slabs: grains that rain at the same speed, or rest together, do not close in. The
+    sphere's own speed alone is no bound: an impact may stop it, or hand on its speed, within the step.
     """
     bound = np.empty(position.shape[0])
     by_height = _speeds_by_height(position, radius, velocity)
@@ -122,6 +122,7 @@ def _speeds_by_height(position, radius, velocity):
 def _bound_speeds(
     rank, members, barrier, position, radius, velocity, reach, bottom, thickness, least, most, bound
 ):
+    """Write the bounds of `closing_speeds` for the share of a member."""
     mark_started(barrier)
     begin, end = partition(rank, members, position.shape[0])
     for i in range(begin, end):

@@ -56,7 +56,7 @@ class StandBy:
     def add_directions(
         self, bonds: Sequence[int], system: BondedSystem, basis: np.ndarray, shifted: SuperLU, ahead: int
     ) -> StandBy:
-        """With directions of more bonds (m,), and of the next `ahead` that break once these have."""
+        """These directions with those of more bonds (m,), and of the next `ahead` that break once these have."""
         known = {int(bond): self.directions[:, self.owner == place] for place, bond in enumerate(self.bonds)}
         search = _Search(system, basis, shifted, known)
         # each once, as asked: a restart that asks for this list gets the same columns to the bit

@@ -179,7 +179,7 @@ class CondensedStepper:
         return np.asarray(self.system.operator.T @ (scale * self._operator.weight * opening))
 
     def _follow_head(self) -> np.ndarray:
-        """Velocities (d,) for one of the head, all else at rest before; kept until bonds break."""
+        """Velocities (d,) per unit velocity of the head, all else at rest before; kept until one more bond breaks."""
         following, broken = self._following
         if broken != len(self.state.broken):
             following = self._velocity(-self._coupling(), 1.0)

@@ -32,7 +32,7 @@ class March:
     def move_to(self, actuator: float) -> float:
         """Force [N] of the actuator in one step, which ends with it at `actuator` [m].
 
-        Where the reduced stepper cannot make it, FullSystemNeeded is raised and it is left in the state before.
+        A reduced stepper that cannot make the step raises FullSystemNeeded, and is left in the state before.
         """
         stepper = self.stepper
         base = self.now.extrapolate(self.earlier, self.scheme.b / self.scheme.a)

@@ -278,13 +278,13 @@ class ReducedStepper:
     def _borne(self, of_all: bool = False) -> float:
         """The largest utilisation so far; of bonds that are not watched only a bound is known.
 
-        That of bonds that an excerpt does not list, none of which is ever watched, has grown most in the end.
+        That of bonds that an excerpt does not list only grows: it is asked for in the end alone (`of_all`).
         """
         reached, watched, most = self._reached_sigma, self._may_yield, float(self._maxima[2])
         return self._part.bounds.largest_utilisation(reached, watched, most, of_all)
 
     def _look_at(self) -> None:
-        """What of the model shows whether the bonds watched yield or close."""
+        """Take from the model what shows whether the bonds watched yield or close."""
         part = self._part
         self._reaction = part.reaction_of(self._may_yield)
         self._beyond_head = part.bounds.head_bounds(self._may_yield, self._sigma_envelope)

@@ -34,6 +34,7 @@ def _numbers(value: float | tuple[float, ...]) -> array[float]:
 
 
 def _address(value: np.ndarray | array[float]) -> int:
+    """Address of contiguous doubles; TypeError for anything else."""
     if isinstance(value, array):
         return value.buffer_info()[0]
     if value.dtype != float or not value.flags.c_contiguous:

@@ -52,9 +52,10 @@ class Skeleton:
         friction: float = 0.5,
         seed: int = 0,
     ) -> Skeleton:
-        """Normal forces exponential about a mean that carries `pressure` [Pa] (Love and Weber): p = sum F l/(3 V).
+        """A skeleton with normal forces drawn exponentially about a mean that carries `pressure` [Pa] (Love and Weber).
 
-        `length` (c,) between the centres [m], `volume` of the specimen [m3], `grain`: E [Pa] and Poisson's ratio.
+        p = sum F l/(3 V): `length` l (c,) is between the centres [m], `volume` V of the specimen [m3]; `touching` (c,) are
+        bonds; `grain`: E [Pa] and Poisson's ratio.
         """
         modulus, poisson = grain
         plane = modulus / (2.0 * (1.0 - poisson**2))
@@ -138,7 +139,7 @@ def _sliders() -> tuple[Vector, Vector]:
 
 @compiled
 def _slide(before, stiff_before, stiff, moved, limit, share, capacity, after, force):
-    """Forces of sliders at the end of a step, their sum (c, 2), and what friction takes [J]."""
+    """Write sliders at the end of a step to `after`, their sum (c, 2) to `force`; gives what friction takes [J]."""
     lost = 0.0
     for c in range(limit.size):
         force[c, 0] = force[c, 1] = 0.0
