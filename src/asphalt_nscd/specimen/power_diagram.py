@@ -96,7 +96,7 @@ def power_diagram(position: np.ndarray, radius: np.ndarray, region: Region) -> F
 def _diagram(
     position: np.ndarray, radius: np.ndarray, region: Region, distance: np.ndarray, within: float
 ) -> tuple[Facets, np.ndarray]:
-    """All facets with the images of spheres nearer to a face than `within` [m], and which are not negligible."""
+    """All facets, spheres nearer to a face than `within` [m] being mirrored at it; which (f,) are not negligible."""
     n = radius.size
     sphere, face = np.nonzero(distance < within)
     least = np.maximum(distance[sphere, face], ON_A_FACE * float(distance.max()))
@@ -153,7 +153,7 @@ def _vertices(centre: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.nd
 
 
 def _polygons(start: np.ndarray, point: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Area (f,), centroid (f, 2) and second moments over area (f, 3) of convex polygons.
+    """Area (f,), centroid (f, 2) and second moments over area (f, 3), uu, vv, uv, of convex polygons.
 
     Each has the corners point[start[k]:start[k + 1]] in any order. A degenerate one has the mean of its corners as
     its centroid.

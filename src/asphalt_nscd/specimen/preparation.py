@@ -98,7 +98,7 @@ def _bed(position: np.ndarray, radius: np.ndarray, pouring: Pouring) -> Granular
 
 
 def _settled(bed: GranularBed, pouring: Pouring, progress: Progress) -> Content:
-    """Let a bed come to rest, vibrate it, and let it come to rest."""
+    """Let a bed come to rest, vibrate it, and let it come to rest; content of its deposit file."""
     box, vibration, position, radius = pouring.box, pouring.vibration, bed.position.copy(), bed.radius
     numerics = PouringNumerics.of(radius, pouring.time_step)
     # the weight of the layer: 16 times as much lowers it by 0.4 mm more, and presses grains into each other
