@@ -106,7 +106,7 @@ def history(arrays: Mapping[str, NDArray[Any]]) -> pd.DataFrame:
 
 
 def _series(record: Record, output: Path) -> str:
-    """A file of spheres and one of bonds for each instant that the test keeps, in a folder named as the series."""
+    """Write spheres and bonds at each instant that the test keeps, in files of a folder named as the series."""
     kept = _kept(record)
     if "strength_N" not in kept:
         raise InputError(

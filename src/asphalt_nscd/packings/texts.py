@@ -136,6 +136,7 @@ def _spheres(path: Path, frame: pd.DataFrame, notes: list[str]) -> Spheres:
 
 
 def _numbers(path: Path, frame: pd.DataFrame, name: str) -> np.ndarray:
+    """A column of numbers (n,); InputError for the first sphere that has none."""
     numbers = pd.to_numeric(frame[name], errors="coerce").to_numpy(float)
     bad = np.flatnonzero(np.isnan(numbers))
     if bad.size:

@@ -103,7 +103,7 @@ def write_poly_data(
 
 
 def write_series(path: Path, steps: Sequence[tuple[float, Sequence[Path]]]) -> None:
-    """Write files of several times [s] as one series, .pvd of ParaView; parts are named from the folder of the file."""
+    """Write files of several times [s] as one series, .pvd of ParaView, which names them from its own folder on."""
     rows = "".join(
         f'<DataSet timestep="{time:.9g}" part="{part}" file="{escape(file.relative_to(path.parent).as_posix())}"/>\n'
         for time, files in steps
