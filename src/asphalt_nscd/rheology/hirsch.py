@@ -18,7 +18,7 @@ def contact_share(shear: ArrayLike, vma: float, vfa: float) -> NDArray[np.float6
 
 
 def hirsch_modulus(shear: ArrayLike, vma: float, vfa: float) -> NDArray[np.float64]:
-    """|E*| [Pa] of the mix."""
+    """|E*| [Pa] of the mix; arguments as of `contact_share`."""
     binder = 3.0 * np.asarray(shear, float) / PSI
     contact = contact_share(shear, vma, vfa)
     parallel = STONE * (1.0 - vma / 100.0) + binder * vfa * vma / 1e4

@@ -88,7 +88,7 @@ def reconstruct_table(
 def fit_published(table3: str | Path) -> tuple[np.ndarray, Fit[Spectrum]]:
     """Temperatures (t,) [degC] of Table 3, read in kPa, and the smooth 2S2P1D law of its isotherms.
 
-    They are taken at the paper's frequencies, those at which the laws were fitted; the shift is WLF.
+    Isotherms are taken at the paper's frequencies, those at which the laws were fitted; the shift is WLF.
     """
     temperatures, laws = read_published(table3)
     # At no others: between and beyond them a Burgers law has bumps that its data had not.

@@ -80,6 +80,8 @@ def rivals(omega: Vector, temperature: Vector, modulus: Complex, reference: floa
 
 
 def _spectrum(at: Coordinates) -> Callable[[Vector, Vector, Vector], Complex]:
+    """E* [Pa] of a continuous law by its coordinates, as `Rival` takes it."""
+
     def modulus(x: Vector, omega: Vector, temperature: Vector) -> Complex:
         with np.errstate(over="ignore", invalid="ignore"):
             return at.build(x).complex_modulus(omega, temperature)
@@ -88,7 +90,7 @@ def _spectrum(at: Coordinates) -> Callable[[Vector, Vector, Vector], Complex]:
 
 
 def _prony(omega: Vector, temperature: Vector, largest: float, reference: float) -> Rival:
-    """Static modulus, BRANCHES Maxwell branches whose times are spaced evenly, place and spacing of these, WLF."""
+    """Static modulus, BRANCHES Maxwell branches with times evenly spaced in logarithm, and a WLF shift."""
     rate = float(np.sqrt(omega.min() * omega.max()))
 
     def modulus(x: Vector, omega: Vector, temperature: Vector) -> Complex:

@@ -194,7 +194,7 @@ class _Problem:
         return size - float(np.sum(left**2))
 
     def seen(self, solution: OptimizeResult) -> NDArray[np.bool_]:
-        """Which parameters are off their bounds and move the residuals, those of the prior among them."""
+        """Which parameters (p,) are off their bounds and move a residual, if only that of the prior."""
         effect = np.linalg.norm(solution.jac, axis=0)
         seen = self.coordinates.inside(solution.x) & (effect > NO_EFFECT * effect.max())
         if "c2" in self.coordinates.names and not seen[self.coordinates.names.index("c2")]:
