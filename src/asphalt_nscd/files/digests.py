@@ -69,7 +69,7 @@ def makers(folder: str | Path) -> dict[Path, str]:
 
 
 def set_aside(error: DamagedFile) -> str:
-    """Move a damaged file out of the way of the workflow, which would take it for good; the sentence on it."""
+    """Move a damaged file out of the way of the workflow, which would take it for sound; gives the sentence on it."""
     aside = error.path.with_name(f".{error.path.name}.damaged")
     with suppress(FileNotFoundError):  # another job has just done so
         error.path.replace(aside)

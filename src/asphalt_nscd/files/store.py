@@ -184,7 +184,7 @@ def provenance() -> dict[str, Any]:
 
 
 def made_by(folder: str | Path) -> dict[str, dict[str, int]]:
-    """For each part of a folder of results, how many of its files which commit made."""
+    """For each part of a folder of results, the number of its files by the commit that made them."""
     import h5py
 
     makers = digests.makers(folder)
