@@ -37,6 +37,7 @@ def release_stale_locks(directory: str | Path) -> bool | None:
 
 
 def _is_free(handle: IO[str]) -> bool:
+    """Whether no other process holds the lock; this one then holds it."""
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -77,7 +77,7 @@ class Warm:
         self.loaded, self.load = socket.socketpair(socket.AF_UNIX, socket.SOCK_DGRAM)
 
     def serve(self) -> list[str]:
-        """Fork for each client; the words of a step in its fork, none where standard input has ended."""
+        """Fork for each client; gives the words of a step in its fork, none where standard input has ended."""
         self._watch(sys.stdin, self._stop)
         self._watch(self.listening, self._begin)
         self._watch(self.loaded, self._load)
