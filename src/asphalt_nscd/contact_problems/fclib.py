@@ -173,6 +173,7 @@ def _integer(found: dict[str, np.ndarray], name: str) -> int:
 
 
 def _numbers(found: dict[str, np.ndarray], name: str, kind: type) -> np.ndarray:
+    """Values (n,) of a dataset; ValueError for another kind of values, or for some that are not finite."""
     values = np.ravel(found[name])
     if values.dtype.kind not in ("if" if kind is float else "iu"):
         raise ValueError(f"{name} does not hold {'numbers' if kind is float else 'integers'}")
