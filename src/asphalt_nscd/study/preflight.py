@@ -53,6 +53,7 @@ def _prefix_errors(where: str) -> Iterator[None]:
 
 
 def _check_specimens(specimens: Mapping[str, Any], source: str) -> None:
+    """Require a geometry that fits into the box or the packings, and counts that can be read."""
     with _prefix_errors(f"{source}: specimens"):
         geometry = read_shape(specimens["geometry"])
         require_joined(geometry, specimens["bonds"]["area"])
@@ -75,6 +76,7 @@ def _check_specimens(specimens: Mapping[str, Any], source: str) -> None:
 
 
 def _check_time_steps(study: Mapping[str, Any], source: str) -> None:
+    """Require enough time steps in a cycle of the highest frequency."""
     with _prefix_errors(f"{source}: test.time_step_s"):
         require_steps(study["test"]["time_step_s"], max(study["frequencies_Hz"]))
     stepping = study.get("time_step_study")

@@ -19,7 +19,7 @@ _TYPES = {float: "number", int: "integer", str: "string"}
 def read_schema(path: str | Path = SCHEMA) -> dict[str, Any]:
     """The schema of a study, with `option: specimen.settings.Surfaces.friction` replaced by what that field states.
 
-    Keywords beside `option` come before those of the field; a limit among them before all of its limits.
+    Keywords beside `option` replace those of the field; a limit among them replaces all limits of the field.
     """
     made: dict[str, Any] = _completed(yaml.safe_load(Path(path).read_text(encoding="utf-8")))
     return made
