@@ -10,6 +10,7 @@ import pytest
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.machine import pooled
+from asphalt_nscd.diagnosis.machine.common_faults import Common, Part, Pooled
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.rheology.parabolic import HuetSayegh
@@ -86,6 +87,14 @@ def test_what_the_machine_does_is_no_reason_to_believe_a_campaign_less():
     assert sound.spread == 1.0 and off.spread > 1.3
     amplitude = np.array([0.4 / OFFSET.parameters[0].typical])
     assert off.judged_beside([OFFSET], amplitude).spread == 1.0
+
+
+def test_of_many_isotherms_each_counts_though_all_are_uncertain():
+    offset = next(cause for cause in CATALOGUE if cause.name == "phase_offset")
+    parts = [Part(f"{k} degC", 0.01 * k, 0.06) for k in range(30)] + [Part("50 degC", np.nan, np.nan)]
+    common = Common(offset, 1e-6, (), 0.15, 0.01, isotherms=tuple(parts), differs={"isotherms": 1e-4})
+    said = str(Pooled((common,), {}, ()))
+    assert "differs between isotherms from 0 deg (0 degC) to 0.29 deg (29 degC)." in said
 
 
 def test_where_the_discrepancy_starts_does_not_change_the_evidence(seed=6, size=4.0):

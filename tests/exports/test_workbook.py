@@ -72,6 +72,16 @@ def test_suspect_tests_and_notes_of_a_diagnosis_stand_in_the_workbook(folder, mo
     assert "Unexplained" not in book.sheetnames
 
 
+def test_a_long_last_column_leaves_the_first_as_it_is(tmp_path):
+    sheets = {
+        "Suspects": pd.DataFrame({"specimen": ["1"], "reasons": ["word " * 60]}),
+        "Notes": pd.DataFrame({"n": ["word " * 60]}),
+    }
+    write_sheets(tmp_path / "t.xlsx", sheets)
+    book = openpyxl.load_workbook(tmp_path / "t.xlsx")
+    assert not book["Suspects"]["A2"].alignment.wrap_text and book["Notes"]["A2"].alignment.wrap_text
+
+
 def test_numbers_are_shown_short_and_a_sheet_prints_on_a_page(tmp_path):
     write_sheets(
         tmp_path / "t.xlsx",

@@ -120,6 +120,13 @@ def test_peaks_need_a_geometry_and_set_the_amplitude():
     assert "E_MPa" not in read_csv("data/mine/measurements.csv").columns
 
 
+def test_moduli_without_phases_are_no_study():
+    Path("m.csv").write_text(
+        "T_C,f_Hz,E (MPa)\n15,10,9000\n15,25,9500\n20,10,8000\n20,25,8600\n", encoding="utf-8"
+    )
+    refused(new_study, "mine", [Path("m.csv")], StudyOptions(), names=["m.csv", "phase_deg", "diagnose"])
+
+
 def test_tests_outside_the_full_grid_are_left_out_and_said():
     tests = [*rows(), *rows(temperatures=[20], frequencies=[10, 3])]
     config, notes = new_study("mine", german(tests), StudyOptions())

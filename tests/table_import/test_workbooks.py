@@ -88,10 +88,11 @@ def test_hidden_rows_are_read_and_told(tmp_path):
     path = workbook(tmp_path / "t.xlsx", results=long())
     book = openpyxl.load_workbook(path)
     book["results"].row_dimensions[3].hidden = book["results"].row_dimensions[5].hidden = True
+    book["results"].column_dimensions.group("B", "D", hidden=True)
     book.save(path)
     campaign, _ = read_campaign([path])
     assert held(campaign) == TESTS
-    assert said(campaign, "hidden rows 3, 5")
+    assert said(campaign, "hidden rows 3, 5 and columns 2, 3, 4")
 
 
 def test_a_sheet_may_be_named_with_a_minus_sign(tmp_path):

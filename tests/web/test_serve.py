@@ -145,6 +145,8 @@ def test_of_too_many_desks_the_oldest_goes(client, app):
         ({"law": "burger"}, 400),
         ({"law": "cam"}, 200),
         ({"heading": {"x": "y"}}, 400),
+        ({"columns": "abc"}, 400),
+        ({"heading": ["temperature_C"]}, 400),
     ],
 )
 def test_choices_are_those_of_the_page(client, choice, status):

@@ -18,6 +18,7 @@ from asphalt_nscd.table_import.frames import frame_of
 
 if TYPE_CHECKING:  # they need the compiler of the core, which a reader of tables need not have
     from asphalt_nscd.api.bending import Test
+    from asphalt_nscd.api.ramp import Failure
     from asphalt_nscd.api.specimens import Packing, Specimen
 
 
@@ -29,7 +30,7 @@ def read(
     columns: Mapping[str, str] | None = None,
     measured_in: str | None = None,
     mix: str | None = None,
-) -> pd.DataFrame | Law | Diagnosis | Packing | Specimen | Test:
+) -> pd.DataFrame | Law | Diagnosis | Packing | Specimen | Test | Failure:
     """Read what a file, a folder or a DataFrame holds.
 
     * Measurements (CSV, TSV, workbooks, exports of testing machines, or a folder of them, or a DataFrame with columns

@@ -337,8 +337,11 @@ def _hidden_lines(path: Path, sheet: Any) -> list[str]:
         if int(row[1]) > MOST_ROWS and row[2].count(b"</c>") > 1:
             raise InputError(f"{path}: values in row {int(row[1])}; {TOO_MANY}")
     rows = [int(line) for line in re.findall(rb'<row\b(?=[^>]*\bhidden="(?:1|true)")[^>]*\br="(\d+)"', xml)]
-    columns = re.findall(rb'<col\b(?=[^>]*\bhidden="(?:1|true)")[^>]*\bmin="(\d+)"', xml)
-    named = [f"rows {_listed(rows)}"] * bool(rows) + [f"columns {_listed(map(int, columns))}"] * bool(columns)
+    # Columns hidden side by side are one element.
+    hidden = rb'<col\b(?=[^>]*\bhidden="(?:1|true)")(?=[^>]*\bmin="(\d+)")(?=[^>]*\bmax="(\d+)")'
+    spans = [(int(first), min(int(last), MOST_COLUMNS)) for first, last in re.findall(hidden, xml)]
+    columns = [number for first, last in spans for number in range(first, last + 1)]
+    named = [f"rows {_listed(rows)}"] * bool(rows) + [f"columns {_listed(columns)}"] * bool(columns)
     return [f"hidden {' and '.join(named)} are read too; delete what shall not count"] if named else []
 
 

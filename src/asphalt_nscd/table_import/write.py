@@ -167,6 +167,11 @@ def study_table(campaign: Campaign, form: str) -> tuple[Table, list[str]]:
         raise InputError(
             f"{table.path}: holds records; first reduce them to moduli with `asphalt-nscd reduce`."
         )
+    if form not in FORMS:
+        raise InputError(
+            f"{table.path}: has no phases, which a study needs to fit its laws; add a column phase_deg, or let "
+            "`asphalt-nscd diagnose` take |E*| alone."
+        )
     columns = {name: table.columns[name] for name in ("specimen", *KEYS, *FORMS[form])}
     if "origin" in table.columns:
         columns["origin"] = table.columns["origin"]

@@ -297,9 +297,11 @@ def _choices(content: Any) -> Choices:
         return Choices()
     kind, law = content.get("measured_in") or None, content.get("law") or "2s2p1d"
     columns, heading = (content.get(name) or {} for name in ("columns", "heading"))
+    if not isinstance(columns, dict) or not isinstance(heading, dict):
+        abort(400, "an unknown choice")
     if kind not in (None, *ALL_KINDS) or law not in TITLES or not set(heading) <= set(options_of(Heading)):
         abort(400, "an unknown choice")
-    texts = [text for pairs in (columns, heading) for pair in dict(pairs).items() for text in pair]
+    texts = [text for pairs in (columns, heading) for pair in pairs.items() for text in pair]
     if not all(isinstance(text, str) and len(text) < 200 for text in texts):
         abort(400, "an unknown choice")
     return Choices(kind, columns, law, heading)

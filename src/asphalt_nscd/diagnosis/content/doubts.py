@@ -37,7 +37,7 @@ class TestRecord(TypedDict):
 class Trust(TypedDict):
     """How many tests can be used as they are, how many only after a check, and how many not at all.
 
-    held_back: Of those to check
+    held_back: Those to check that were held back.
     check_of: Specimens all of whose tests need a check, where these are all that do.
     use: Tests with nothing against them.
     check: Tests that are odd, doubtful, off their target temperature, at an isotherm that contradicts itself, or

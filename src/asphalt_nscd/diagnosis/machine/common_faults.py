@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
@@ -105,7 +106,10 @@ def _sentence(one: Common) -> str:
         return f"Machine: {words} in all campaigns, {size} (95 % interval){or_else}."
     differ = []
     for group in one.differs:
-        known = [part for part in getattr(one, group) if part.std_error < SHOWS * one.std_error]
+        parts = getattr(one, group)
+        # Of very many all are uncertain: each counts that shows anything.
+        known = [part for part in parts if part.std_error < SHOWS * one.std_error]
+        known = known or [part for part in parts if math.isfinite(part.std_error)]
         low, high = min(known, key=lambda part: part.value), max(known, key=lambda part: part.value)
         ends = [f"{three_digits(shown(part.value, unit)[0])} {name} ({part.where})" for part in (low, high)]
         differ.append(f"between {group} from {ends[0]} to {ends[1]}")

@@ -259,8 +259,7 @@ def _fill(book: Workbook, title: str, frame: pd.DataFrame) -> None:
         sheet.column_dimensions[get_column_letter(number)].width = min(longest + 2, WIDEST)
     for cell in sheet[1]:
         cell.font, cell.alignment = Font(bold=True), Alignment(wrap_text=True, vertical="top")
-    # Of the last column, which is the only one of a sheet of sentences.
-    if longest > WIDEST:
+    if len(frame.columns) == 1 and longest > WIDEST:  # a sheet of sentences
         for (cell,) in sheet.iter_rows(min_row=2, max_col=1):
             cell.alignment = Alignment(wrap_text=True, vertical="top")
     sheet.freeze_panes = "A2"
