@@ -54,8 +54,8 @@ class Skeleton:
     ) -> Skeleton:
         """A skeleton with normal forces drawn exponentially about a mean that carries `pressure` [Pa] (Love and Weber).
 
-        p = sum F l/(3 V): `length` l (c,) is between the centres [m], `volume` V of the specimen [m3]; `touching` (c,)
-        are bonds; `grain`: E [Pa] and Poisson's ratio.
+        p = sum F l/(3 V): `length` l (c,) is between the centres [m], `volume` V that of the specimen [m3].
+        `touching` (c,) lists bonds; `grain`: E [Pa] and Poisson's ratio.
         """
         modulus, poisson = grain
         plane = modulus / (2.0 * (1.0 - poisson**2))
