@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -33,6 +35,9 @@ def test_a_beam_bends_with_contacts_and_its_file_is_that_of_the_command(monkeypa
     assert slight.attrs["contacts"] > 10 and abs(strong.attrs["energy_error"]) < 0.01
     assert slight.attrs["E_MPa"] == pytest.approx(slight.attrs["E_stuck_MPa"], rel=0.01)
     assert strong.attrs["phase_deg"] > strong.attrs["phase_stuck_deg"] + 0.01
+    weak = replace(model, system=replace(model.system, strength=1e-9 * model.system.strength))
+    programme = Cycling(amplitude_m=1e-4, haversine=False, all_cycles=4, read_cycles=2)
+    assert cycle(weak, LAW, 10.0, programme).equals(strong)  # bonds of such a test do not break
     save(tmp_path / "model.h5", "model", *CONTENT)
     write_law(tmp_path / "law.json", LAW, source="stated", temperature=40.0)
     options = "--temperature-c 40 --frequency-hz 10 --all-cycles 4 --read-cycles 2 --no-haversine".split()

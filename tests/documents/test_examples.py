@@ -13,21 +13,18 @@ import asphalt_nscd
 pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
+SOURCES = ROOT / "src"
 MODULES = [
-    "api.arguments", "api.bending", "api.comparison", "api.contacts", "api.diagnosis", "api.exporting",
-    "api.fatigue", "api.forecasting", "api.laws", "api.ramp", "api.reading", "api.specimens", "bending.case",
-    "bending.further_settings", "bending.settings",
-    "bending.fatigue", "bending.rig", "diagnosis.run", "files.errors", "files.words", "measurements.signals",
-    "files.options", "files.ranges", "measurements.twopoint", "diagnosis.settings", "exports.settings",
-    "nscd.contacts.friction", "rheology.burgers", "rheology.chain", "rheology.fitting", "rheology.laws_of_modulus",
-    "rheology.parabolic", "rheology.shift", "specimen.settings",
-]  # fmt: skip
+    ".".join(path.relative_to(SOURCES).with_suffix("").parts)
+    for path in sorted(SOURCES.rglob("*.py"))
+    if ">>> " in path.read_text(encoding="utf-8") and path.name != "__init__.py"
+]
 
 
 @pytest.mark.parametrize("name", MODULES)
 def test_examples(name, monkeypatch):
     monkeypatch.chdir(ROOT)  # examples read data/tutorial
-    failed, tried = doctest.testmod(import_module(f"asphalt_nscd.{name}"))
+    failed, tried = doctest.testmod(import_module(name))
     assert tried and not failed
 
 

@@ -89,6 +89,19 @@ def test_only_spheres_that_no_bond_joins_meet():
         assert _Contacts.near(touching).gap == pytest.approx(np.zeros(broken), abs=1e-15)
 
 
+@pytest.mark.parametrize("order", [[0, 1], [1, 0]])
+def test_bonded_spheres_do_not_meet_whichever_is_larger(order):
+    """Pairs come with the larger sphere first, whatever its number."""
+    position, bonds = bar((2, 1, 1))
+    radius = np.array([RADIUS, 0.5 * RADIUS])[order]
+    position[1, 0] = position[0, 0] + radius.sum()
+    of_two = World(position, radius, mass(2), bonds, LAW, NOWHERE, 4e-4)
+    of_two.throw(np.zeros((2, 6)))
+    assert _Contacts.near(of_two).gap.size == 0
+    of_two.broken[:] = True
+    assert _Contacts.near(of_two).gap.size == 1
+
+
 def test_small_strains_are_those_of_small_displacements():
     """A bar that vibrates by a nanometre: motion and stresses of the condensed stepper, which a slope of 1e-6 joins."""
     position, bonds = bar()

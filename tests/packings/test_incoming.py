@@ -21,7 +21,7 @@ def lines(numbers: np.ndarray, separator: str) -> str:
     return "\n".join(separator.join(f"{value:.12g}" for value in row) for row in numbers) + "\n"
 
 
-def dump(numbers: np.ndarray, atoms: int | None = None) -> str:
+def dump(numbers: np.ndarray, atoms: int | str | None = None) -> str:
     atoms = len(numbers) if atoms is None else atoms
     rows = np.column_stack([np.arange(1, len(numbers) + 1), np.ones(len(numbers)), numbers])
     head = f"ITEM: TIMESTEP\n7000\nITEM: NUMBER OF ATOMS\n{atoms}\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
@@ -122,6 +122,7 @@ FAR = np.column_stack([np.round(MM[:, :3] + 5e6, -1), MM[:, 3]])
         ('{"law": "burgers"}', "JSON"),
         (f"{HEADED}0,0,0,4\n0,0,4,4\n", "100 %"),
         (dump(TABLE, atoms=500), "120 of 500"),
+        (dump(TABLE, atoms="a few"), "120 of a few"),
         ("ITEM: TIMESTEP\n0\n", "ITEM: ATOMS"),
         ("ITEM: TIMESTEP\n0\nITEM: ATOMS id xs ys zs radius\n1 0 0 0 1\n", "scaled coordinates"),
         ("x;y;z;radius\n1,5;2,5;3,5;4,5\n", "comma"),

@@ -261,7 +261,8 @@ class _Contacts:
         left = ~world.broken
         joined = np.sort(np.stack([world.bonds.first[left], world.bonds.second[left]]), axis=0)
         # a pair as one number, since isin knows no pairs
-        free = ~np.isin(first * (n + len(planes[0])) + second, joined[0] * (n + len(planes[0])) + joined[1])
+        lower, higher = np.minimum(first, second), np.maximum(first, second)
+        free = ~np.isin(lower * (n + len(planes[0])) + higher, joined[0] * (n + len(planes[0])) + joined[1])
         first, second, gap = first[free], second[free], gap[free]
         normal = np.empty((first.size, 3))
         spheres = second < n

@@ -30,6 +30,6 @@ def limiting_modulus(vma: float, vfa: float) -> float:
     """The limiting maximum modulus [Pa] of AASHTO R 84.
 
     >>> f"{limiting_modulus(17.9, 61.5) / 1e9:.1f} GPa"
-    '21.9 GPa'
+    '21.8 GPa'
     """
     return float(hirsch_modulus(GLASSY_BINDER, vma, vfa))
