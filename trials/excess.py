@@ -13,18 +13,20 @@ could see that.
 
 from __future__ import annotations
 
-import argparse
 from collections.abc import Callable, Iterator
+from itertools import islice
 from pathlib import Path
 from unittest.mock import patch
 
+import click
 import numpy as np
 import pandas as pd
-from attack.laboratory import CYLINDER, Campaign, invented, written
+from attack.laboratory import CYLINDER, Campaign, sound_campaigns, written
 from attack.rates import line
 
 import asphalt_nscd as an
 from asphalt_nscd.diagnosis.screening import excess_phase
+from asphalt_nscd.files.store import write_table
 
 SEED = 20281207
 NEAR = 0.3  # deg
@@ -39,17 +41,6 @@ class _Known(Exception):
 
 def _stop(*known: object) -> bool:
     raise _Known(*known)
-
-
-def sound(number: int) -> Iterator[Campaign]:
-    """So many campaigns without a fault."""
-    place = given = 0
-    while given < number:
-        campaign = invented(place, SEED)
-        place += 1
-        if campaign.broken is None:
-            given += 1
-            yield campaign
 
 
 def rows(campaign: Campaign) -> Iterator[dict[str, object]]:
@@ -130,17 +121,15 @@ def _spoken(table: pd.DataFrame) -> pd.Series:
     return above.groupby(table["table"]).any()
 
 
-def main(arguments: list[str] | None = None) -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("tables", type=int)
-    parser.add_argument("--folder", type=Path, required=True)
-    given = parser.parse_args(arguments)
-    table = pd.DataFrame([row for campaign in sound(given.tables) for row in rows(campaign)])
-    given.folder.mkdir(parents=True, exist_ok=True)
-    table.round(4).to_csv(given.folder / "excess.csv", index=False, lineterminator="\n")
-    summary(table).to_csv(given.folder / "summary.csv", index=False, lineterminator="\n")
+@click.command()
+@click.argument("tables", type=int)
+@click.option("--folder", required=True, type=click.Path(path_type=Path))
+def main(tables: int, folder: Path) -> None:
+    """Try so many TABLES."""
+    sound = islice(sound_campaigns(SEED), tables)
+    table = pd.DataFrame([row for campaign in sound for row in rows(campaign)])
+    write_table(folder / "excess.csv", table.round(4))
+    write_table(folder / "summary.csv", summary(table))
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+from drawn.design import factorial
 from drawn.laws import CENTRES, Law
 
 SHIFTS = {
@@ -25,7 +26,7 @@ SHIFTS = {
     "havriliak_negami": ("quadratic", {"slope": 0.125, "bend": 1.0 / 120.0}),  # decades/K, 1/K
 }
 SPECIMEN_SCATTER, MODULUS_SCATTER, PHASE_SCATTER = 0.03, 0.01, np.radians(0.3)  # of the reconstruction
-SPECIMENS = 4
+SPECIMENS = "1234"
 
 
 def law(family: str) -> Law:
@@ -35,26 +36,15 @@ def law(family: str) -> Law:
 
 def draw(family: str, temperatures: Sequence[float], frequencies: Sequence[float], seed: int) -> pd.DataFrame:
     """Moduli of specimens "1" to "4" about the law: specimen, temperature_C, frequency_Hz, E_MPa, phase_deg, origin."""
-    temperature, frequency = (grid.ravel() for grid in np.meshgrid(temperatures, frequencies, indexing="ij"))
-    true = np.log(law(family).modulus(2.0 * np.pi * frequency, temperature))
     parts = []
-    for number in range(SPECIMENS):
+    for number, specimen in enumerate(SPECIMENS):
         rng = np.random.default_rng([seed, list(SHIFTS).index(family), number])
+        tests = factorial([specimen], temperatures, frequencies)
+        true = np.log(law(family).modulus(2.0 * np.pi * tests["frequency_Hz"], tests["temperature_C"]))
         norm = true.real + SPECIMEN_SCATTER * rng.standard_normal()
         norm = norm + MODULUS_SCATTER * rng.standard_normal(true.size)
         phase = true.imag + PHASE_SCATTER * rng.standard_normal(true.size)
-        parts.append(
-            pd.DataFrame(
-                {
-                    "specimen": str(number + 1),
-                    "temperature_C": temperature,
-                    "frequency_Hz": frequency,
-                    "E_MPa": np.exp(norm) * 1e-6,
-                    "phase_deg": np.degrees(phase),
-                    "origin": "synthetic",
-                }
-            )
-        )
+        parts.append(tests.assign(E_MPa=np.exp(norm) * 1e-6, phase_deg=np.degrees(phase), origin="synthetic"))
     return pd.concat(parts, ignore_index=True)
 
 

@@ -31,13 +31,11 @@ def table() -> pd.DataFrame:
     """
     rows = []
     for count, shift in product(ISOTHERMS, SHIFT_PARAMETERS):
-        named = {
-            f"chamber_{chamber:g}_K": float(
-                np.median(np.concatenate([_limits(n, count, shift, chamber) for n in range(MIXES)]))
-            )
-            for chamber in CHAMBER
-        }
-        rows.append({"isotherms": count, "shift_parameters": shift, **named})
+        row = {"isotherms": count, "shift_parameters": shift}
+        for chamber in CHAMBER:
+            limits = np.concatenate([_limits(n, count, shift, chamber) for n in range(MIXES)])
+            row[f"chamber_{chamber:g}_K"] = float(np.median(limits))
+        rows.append(row)
     return pd.DataFrame(rows)
 
 
@@ -50,10 +48,9 @@ def _limits(number: int, count: int, shift: int, chamber: float) -> np.ndarray:
     t, f = (np.repeat(isotherms, band.size), np.tile(band, count))
     # One specimen stands for all: a mean of as many tests.
     sigma = np.repeat([np.mean(modulus), np.radians(np.mean(phase))], t.size) / np.sqrt(specimens)
-    per_time, per_kelvin = (
-        _along_time(mix, f, t),
-        _both(mix.log_modulus(f, t + STEP) - mix.log_modulus(f, t)) / STEP,
-    )
+    here = mix.log_modulus(f, t)
+    per_time = _both(mix.log_modulus(f, t, STEP) - here) / STEP
+    per_kelvin = _both(mix.log_modulus(f, t + STEP) - here) / STEP
     away = (t - isotherms.mean()) / np.ptp(isotherms)
     of_shift = [np.tile(away**power, 2) * per_time for power in range(1, shift + 1)]
     level = np.repeat([1.0, 0.0], t.size)
@@ -73,10 +70,6 @@ def _limits(number: int, count: int, shift: int, chamber: float) -> np.ndarray:
 def _both(change: np.ndarray) -> np.ndarray:
     """Of ln|E*|, then of the phase (2n,)."""
     return np.concatenate([change.real, change.imag])
-
-
-def _along_time(mix: Mix, f: np.ndarray, t: np.ndarray) -> np.ndarray:
-    return _both(mix.log_modulus(f, t, STEP) - mix.log_modulus(f, t)) / STEP
 
 
 def _along_law(mix: Mix, f: np.ndarray, t: np.ndarray) -> list[np.ndarray]:

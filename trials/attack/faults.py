@@ -43,11 +43,9 @@ class Fault:
     def rows(self, campaign: Campaign) -> np.ndarray:
         """(n,) tests that it hits."""
         rows = campaign.at(self.specimen, self.temperature)
-        return (
-            rows & campaign.tests["frequency_Hz"].isin(self.frequencies).to_numpy()
-            if self.frequencies
-            else rows
-        )
+        if self.frequencies:
+            rows &= campaign.tests["frequency_Hz"].isin(self.frequencies).to_numpy()
+        return rows
 
 
 class Chain:
@@ -66,9 +64,8 @@ class Chain:
     def log_modulus(self) -> Complex:
         """ln E* (n,) [Pa] that is recorded."""
         campaign = self.campaign
-        modulus = (
-            np.exp(campaign.response(self.warming, self.tuning) + campaign.own) * self.softer + self.branch
-        )
+        whole = campaign.response(self.warming, self.tuning) + campaign.own
+        modulus = np.exp(whole) * self.softer + self.branch
         return np.log(modulus / (1.0 + self.compliance * modulus) + self.head) + self.channel
 
 
@@ -222,24 +219,20 @@ def _exchanged_isotherms(table: pd.DataFrame, fault: Fault) -> pd.DataFrame:
     """Two files of one specimen stand under each other's temperature."""
     mine = table["specimen"] == fault.specimen
     labels = {fault.temperature: fault.other, fault.other: fault.temperature}
-    return table.assign(
-        temperature_C=table["temperature_C"].where(~mine, table["temperature_C"].replace(labels))
-    )
+    noted = table["temperature_C"]
+    return table.assign(temperature_C=noted.where(~mine, noted.replace(labels)))
 
 
 def _copied(table: pd.DataFrame, fault: Fault) -> pd.DataFrame:
     """A specimen's numbers on one isotherm are those of another one, to the last digit."""
-    columns, keys = (
-        ["E_MPa", "phase_deg"],
-        ["frequency_Hz", *(["amplitude_m"] if "amplitude_m" in table else [])],
-    )
+    columns = ["E_MPa", "phase_deg"]
+    keys = [name for name in ("frequency_Hz", "amplitude_m") if name in table]
     here = table["temperature_C"] == fault.temperature
-    given = table[here & (table["specimen"] == fault.other)].set_index(keys)[columns]
+    given = table[here & (table["specimen"] == fault.other)]
+    own = table[here & (table["specimen"] == fault.specimen)]
+    copied = own[keys].reset_index().merge(given[[*keys, *columns]], on=keys).set_index("index")
     table = table.copy()
-    for row in table.index[here & (table["specimen"] == fault.specimen)]:
-        key = tuple(table.loc[row, keys]) if len(keys) > 1 else table.loc[row, keys[0]]
-        if key in given.index:
-            table.loc[row, columns] = given.loc[key].to_numpy(float)
+    table.loc[copied.index, columns] = copied[columns]
     return table
 
 

@@ -7,11 +7,13 @@ least squares; everyday errors are added as to the other campaigns.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from drawn.design import factorial
 
 from asphalt_nscd.bending.bending_test import bond_law, run_test
 from asphalt_nscd.bending.case import LoadCase, Numerics
@@ -62,16 +64,14 @@ def tried(number: int, models: Sequence[Path]) -> Iterator[dict[str, Any]]:
 
 def _campaign(name: str, specimens: Sequence[str], mix: Mix, rng: np.random.Generator) -> Campaign:
     """Five temperatures by four frequencies; of everyday errors those that are no temperature and no time."""
-    temperatures, frequencies = DESIGNS[BENDING][2]
-    rows = [(s, t, f) for s in specimens for t in temperatures for f in frequencies]
-    tests = pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz"])
-    own = everyday(name, BENDING, tests, mix, rng).own
+    tests = factorial(specimens, *DESIGNS[BENDING][2])
+    campaign = everyday(name, BENDING, tests, mix, rng)
     t, f = (tests[column].to_numpy(float) for column in ("temperature_C", "frequency_Hz"))
 
     def response(warming: Vector, tuning: Vector) -> Complex:
         return mix.log_modulus(f * tuning, t + warming)
 
-    return Campaign(name, BENDING, tests, response, own, np.zeros(len(tests)))
+    return replace(campaign, response=response, warmer=np.zeros(len(tests)))
 
 
 def _table(

@@ -81,36 +81,28 @@ def told(fault: Fault, campaign: Campaign, content: Content, answer: str) -> boo
         return True  # in one sentence that says where to look
     if any(right(entry, fault, content) for entry in names(content)):
         return True
-    spoken = " ".join(
-        [answer, *content.get("notes", []), *content.get("reading", {}).get("notes", [])]
-    ).lower()
-    flagged = [
-        (one["specimen"], one["temperature_C"], one["frequency_Hz"])
-        for one in content.get("suspect_tests", [])
-        if "its own isotherm" in one["decided_by"]
-    ]
+    reading = content.get("reading", {})
+    suspects = content.get("suspect_tests", [])
+    flagged = [_key(one) for one in suspects if "its own isotherm" in one["decided_by"]]
     rows = fault.rows(campaign)
     if fault.kind in ("exchanged specimens", "copied block"):
         rows = rows | campaign.at(str(fault.other), fault.temperature)
     if fault.kind == "exchanged isotherms":
         rows = rows | campaign.at(fault.specimen, float(fault.other or 0.0))
     if fault.kind in ("offset of one specimen", "delay of one specimen"):
-        own = [
-            one["temperature_C"] for one in content.get("odd_phases", []) if one["specimen"] == fault.specimen
-        ]
+        odd = content.get("odd_phases", [])
+        own = [one["temperature_C"] for one in odd if one["specimen"] == fault.specimen]
         return None in own or len(own) >= HALF * len(campaign.isotherms)
     if fault.kind in ("temperature of one specimen on one isotherm", "wrong recorded temperature"):
-        odd = [*content.get("odd_temperatures", []), *content.get("reading", {}).get("off_target", [])]
+        odd = [*content.get("odd_temperatures", []), *reading.get("off_target", [])]
         return any(_sweep(one, fault) for one in odd)
     if fault.kind == "offset of one isotherm":
-        return any(
-            _same(one["temperature_C"], fault.temperature)
-            for one in content.get("contradictory_isotherms", [])
-        )
-    if fault.kind == "copied block" and any(
-        word in spoken for word in ("identical", "same digits", "copied")
-    ):
-        return True
+        odd = content.get("contradictory_isotherms", [])
+        return any(_same(one["temperature_C"], fault.temperature) for one in odd)
+    if fault.kind == "copied block":
+        spoken = " ".join([answer, *content.get("notes", []), *reading.get("notes", [])]).lower()
+        if any(word in spoken for word in ("identical", "same digits", "copied")):
+            return True
     if fault.kind in ("aliasing", "wrong top frequency") and content.get("highest_frequency") is not None:
         return True
     hit = [any(_test(one, test) for one in flagged) for test in campaign.tests[rows].itertuples()]
@@ -136,6 +128,10 @@ def _both_odd(fault: Fault, content: Content) -> bool:
     return all(any(one["specimen"] == s and _same(one["temperature_C"], t) for one in odd) for s, t in ends)
 
 
+def _key(one: Mapping[str, Any]) -> tuple[str, float, float]:
+    return one["specimen"], one["temperature_C"], one["frequency_Hz"]
+
+
 def _test(one: tuple[str, float, float], test: Any) -> bool:
     same = one[0] == test.specimen and _same(one[1], test.temperature_C)
     return same and bool(np.isclose(one[2], test.frequency_Hz, rtol=0.01))
@@ -147,10 +143,7 @@ def judged(
     """A row for each fault of a case, one for none. before: names of a measured table as it is, which are not new."""
     given = [e for e in names(content) if (e["cause"], str(e.get("where"))) not in before]
     false = [e for e in given if not any(right(e, fault, content) for fault in case.faults)]
-    removed = [
-        (one["specimen"], one["temperature_C"], one["frequency_Hz"])
-        for one in content.get("suspect_tests", []) if one["status"] == "left out"
-    ]  # fmt: skip
+    removed = [_key(one) for one in content.get("suspect_tests", []) if one["status"] == "left out"]
     bad = np.zeros(len(campaign.tests), bool)
     for fault in case.faults:
         bad |= fault.rows(campaign) if case.suite == "slip" else False
@@ -201,15 +194,10 @@ def _of(
         parameter = next(iter(itself[0]["parameters"].values()))
         low, high = _interval(parameter)
         # The chamber's own error at an isotherm is part of what a temperature bias is.
-        truth = fault.size + (
-            campaign.warmer[fault.rows(campaign)].mean() if fault.kind == "temperature_bias" else 0.0
-        )
-        row |= {
-            "covered": bool(low <= truth <= high),
-            "error_sigma": (parameter["value"] - truth) / parameter["std_error"]
-            if parameter["std_error"]
-            else None,
-        }
+        warmer = campaign.warmer[fault.rows(campaign)].mean() if fault.kind == "temperature_bias" else 0.0
+        truth, error = fault.size + warmer, parameter["std_error"]
+        row["covered"] = bool(low <= truth <= high)
+        row["error_sigma"] = (parameter["value"] - truth) / error if error else None
     return row
 
 

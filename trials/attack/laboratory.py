@@ -8,12 +8,14 @@ specimens, 1 to 2 % and 0.1 to 0.25 deg between mountings, half a per cent and a
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from itertools import count
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from drawn.design import factorial
 
 from .mixes import LAWS, SHIFTS, Complex, Mix, Vector
 
@@ -101,24 +103,16 @@ def invented(number: int, seed: int) -> Campaign:
     bench = (BENDING, CYLINDER)[number % 2]
     temperatures, frequencies = DESIGNS[bench][(number // 2) % len(DESIGNS[bench])]
     specimens = [f"S{k + 1}" for k in range((3, 4, 2, 3, 4, 3)[number % 6])]
-    amplitudes = AMPLITUDES if bench == BENDING and number % AMPLITUDES_EVERY == 2 else ()
-    rows = [
-        (s, t, f, *a)
-        for s in specimens
-        for t in temperatures
-        for f in frequencies
-        for a in ([(a,) for a in amplitudes] or [()])
-    ]
-    names = ["specimen", "temperature_C", "frequency_Hz", *(["amplitude_m"] if amplitudes else [])]
-    tests = pd.DataFrame(rows, columns=names)
+    amplified = bench == BENDING and number % AMPLITUDES_EVERY == 2
+    amplitudes = {"amplitude_m": AMPLITUDES} if amplified else {}
+    tests = factorial(specimens, temperatures, frequencies, **amplitudes)
     if number % ORDER_EVERY == 1:  # each specimen from cold to warm, by chance within an isotherm
         tests["order"] = 0
         for s in specimens:
             part = tests.index[tests["specimen"] == s].to_numpy()
             start = rng.permutation(len(temperatures))
-            key = start[np.searchsorted(temperatures, tests.loc[part, "temperature_C"])] + rng.random(
-                part.size
-            )
+            isotherm = np.searchsorted(temperatures, tests.loc[part, "temperature_C"])
+            key = start[isotherm] + rng.random(part.size)
             tests.loc[part, "order"] = np.argsort(np.argsort(key)) + 1
     mix = Mix.draw(law, shift, rng)
     campaign = everyday(f"table {number + 1}", bench, tests, mix, rng)
@@ -128,6 +122,11 @@ def invented(number: int, seed: int) -> Campaign:
     if number % MISSING_EVERY == 1:
         campaign = without(campaign, rng.choice(len(tests), size=int(rng.integers(1, 4)), replace=False))
     return campaign
+
+
+def sound_campaigns(seed: int, first: int = 0) -> Iterator[Campaign]:
+    """Those of a seed whose gauges do not slip, from number `first` on."""
+    return (one for one in (invented(number, seed) for number in count(first)) if one.broken is None)
 
 
 def everyday(name: str, bench: str, tests: pd.DataFrame, mix: Mix, rng: np.random.Generator) -> Campaign:
@@ -151,9 +150,8 @@ def everyday(name: str, bench: str, tests: pd.DataFrame, mix: Mix, rng: np.rando
             along = np.log(f[rows]) - np.log(f).mean()
             error[rows] = chamber[value] + rng.uniform(-control, control) / 2.0
             own[rows] += warm[rows] * (level * rng.standard_normal() + tilt * rng.standard_normal() * along)
-            own[rows] += (
-                1j * warm[rows] * (phase * rng.standard_normal() + lean * rng.standard_normal() * along)
-            )
+            turned = phase * rng.standard_normal() + lean * rng.standard_normal() * along
+            own[rows] += 1j * warm[rows] * turned
     own += warm * (single * rng.standard_normal(n) + 1j * turn * rng.standard_normal(n))
 
     def response(warming: Vector, tuning: Vector) -> Complex:
@@ -186,6 +184,5 @@ def without(campaign: Campaign, rows: np.ndarray) -> Campaign:
         return campaign.response(spread, stretched)[kept]
 
     tests = campaign.tests.iloc[kept].reset_index(drop=True)
-    return replace(
-        campaign, tests=tests, response=response, own=campaign.own[kept], warmer=campaign.warmer[kept]
-    )
+    own, warmer = campaign.own[kept], campaign.warmer[kept]
+    return replace(campaign, tests=tests, response=response, own=own, warmer=warmer)

@@ -6,9 +6,7 @@ them states in the median. The share of machines where the offset gets its name 
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -51,11 +49,8 @@ def tried(machine: int, seed: int = SEED) -> list[dict[str, Any]]:
 
 
 def _diagnosed(campaign: Campaign, faults: Sequence[Fault]) -> Diagnosis:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "measured.csv")
-        put(campaign, faults).to_csv(path, index=False)
-        observed, _ = read_observations(campaign_in(path, measured_in=campaign.bench), PAPER_GEOMETRY)
-    return diagnose(observed, draws=DRAWS)
+    table = campaign_in(put(campaign, faults), measured_in=campaign.bench)
+    return diagnose(read_observations(table, PAPER_GEOMETRY)[0], draws=DRAWS)
 
 
 def _pooled(each: Sequence[Campaign], found: Sequence[Diagnosis]) -> Pooled:
@@ -90,26 +85,13 @@ def summary(rows: pd.DataFrame) -> pd.DataFrame:
     """What is named of machines with an offset, and of machines without a fault."""
     wrong = rows["wrong_names"].fillna("") != ""
     put = rows["offset_deg"] != 0.0
+    shifted = rows[put]
     return pd.DataFrame(
         [
-            line(
-                f"five campaigns, an offset of {OF_LIMIT:g} limits: named",
-                ">= 90 %",
-                rows.loc[put, "named"],
-                low=0.9,
-            ),
-            line(
-                "the same, or as one of those that fit as well",
-                "reported",
-                (rows["named"] | rows["as_good"])[put],
-            ),
-            line(
-                "the same: within its 95 % interval",
-                ">= 92 %",
-                rows.loc[put, "covered"],
-                low=0.92,
-            ),
+            line(f"five campaigns, an offset of {OF_LIMIT:g} limits: named", ">= 90 %", shifted["named"], low=0.9),
+            line("the same, or as one of those that fit as well", "reported", shifted["named"] | shifted["as_good"]),
+            line("the same: within its 95 % interval", ">= 92 %", shifted["covered"], low=0.92),
             line("the same: another name", "<= 3 %", wrong[put], high=0.03),
             line("five campaigns without a fault: a name", "<= 1 %", wrong[~put], high=0.01),
         ]
-    )
+    )  # fmt: skip

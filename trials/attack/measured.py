@@ -24,11 +24,8 @@ COLUMNS = ["specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
 def paths() -> list[Path]:
     """Tables of moduli that are shipped, then those in the folder of the environment, by name."""
     given = os.environ.get(FOLDER)
-    found = [
-        path
-        for folder in (SHIPPED, *([given] if given else []))
-        for path in sorted(Path(folder).rglob("*.csv"))
-    ]
+    folders = [SHIPPED, *([Path(given)] if given else [])]
+    found = [path for folder in folders for path in sorted(folder.rglob("*.csv"))]
     tables = {path.resolve(): path for path in found if _read(path) is not None}
     digests: dict[bytes, Path] = {}
     for path in tables.values():
@@ -65,12 +62,5 @@ def campaign(path: Path, name: str) -> Campaign:
 
     shipped = SHIPPED in path.parents
     bench = CYLINDER if shipped or path.resolve().parent.name == CYLINDER else BENDING
-    return Campaign(
-        name,
-        bench,
-        tests,
-        response,
-        np.zeros(len(tests), complex),
-        np.zeros(len(tests)),
-        about={"measured": True},
-    )
+    none = np.zeros(len(tests))
+    return Campaign(name, bench, tests, response, none.astype(complex), none, about={"measured": True})

@@ -60,10 +60,8 @@ def _sigmoid(x: Vector, p: dict[str, float]) -> Complex:
     """The sigmoid of MEPDG for |E*|; its phase is causal."""
 
     def log_norm(x: Vector) -> Vector:
-        return np.log(10.0) * (
-            p["lower"]
-            + (p["upper"] - p["lower"]) / (1.0 + np.exp(-(p["at"] + p["slope"] * x / np.log(10.0))))
-        )
+        rise = 1.0 + np.exp(-(p["at"] + p["slope"] * x / np.log(10.0)))
+        return np.log(10.0) * (p["lower"] + (p["upper"] - p["lower"]) / rise)
 
     return log_norm(x) + 1j * causal_phase(log_norm, x)
 
@@ -160,13 +158,11 @@ class Mix:
 
     @classmethod
     def draw(cls, law: str, shift: str, rng: np.random.Generator) -> Mix:
-        parameters = {name: float(rng.uniform(*ends)) for name, ends in LAWS[law][1].items()}
-        return cls(
-            law,
-            parameters,
-            shift,
-            {name: float(rng.uniform(*ends)) for name, ends in SHIFTS[shift][1].items()},
+        drawn, constants = (
+            {name: float(rng.uniform(*ends)) for name, ends in ranges.items()}
+            for ranges in (LAWS[law][1], SHIFTS[shift][1])
         )
+        return cls(law, drawn, shift, constants)
 
     def log_modulus(self, frequency: Vector, temperature: Vector, slower: Vector | float = 0.0) -> Complex:
         """ln E* (n,) [Pa] at frequency [Hz] and temperature [degC]; slower: ln of a factor on all times."""

@@ -16,14 +16,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-import asphalt_nscd as an
-
 from .faults import Fault, put
 from .judge import names
-from .laboratory import Campaign, invented, written
+from .laboratory import Campaign, sound_campaigns, written
 from .mixes import Complex, Vector
 from .plan import LEAST_PHASE
 from .rates import line
+from .trial import diagnosed
 
 SEED = 20281107  # set before the diagnosis knew of such mixes
 TABLES = 40
@@ -32,6 +31,8 @@ OFFSET = 2.0  # deg
 ROUNDING = 0.005  # deg
 CAREFUL = 1.0 / 3.0  # of the everyday errors, that a careful laboratory has
 LEAST_ISOTHERMS = 4
+Random = np.random.Generator
+Fading = tuple[Vector, Vector]  # weights of what |E*| loses and the phase gains
 OF_THE_MIX = ("film_softening", "drifting_reading")  # names that blame the mix, or how its drift is read
 
 
@@ -41,48 +42,44 @@ def _softness(log_modulus: Complex) -> Vector:
     return np.asarray(soft / soft.max())
 
 
-def _by_softness(
-    log_modulus: Complex, tests: pd.DataFrame, rng: np.random.Generator
-) -> tuple[Vector, Vector]:
+def _by_softness(log_modulus: Complex, tests: pd.DataFrame, rng: Random) -> Fading:
     weight = _softness(log_modulus) ** rng.uniform(0.5, 3.0)
     return weight, weight
 
 
-def _beyond(log_modulus: Complex, tests: pd.DataFrame, rng: np.random.Generator) -> tuple[Vector, Vector]:
+def _beyond(log_modulus: Complex, tests: pd.DataFrame, rng: Random) -> Fading:
     """Linear as long as it is stiffer than some bound."""
     bound = rng.uniform(0.3, 0.6)
     weight = np.maximum(_softness(log_modulus) - bound, 0.0) / (1.0 - bound)
     return weight, weight
 
 
-def _by_temperature(
-    log_modulus: Complex, tests: pd.DataFrame, rng: np.random.Generator
-) -> tuple[Vector, Vector]:
+def _by_temperature(log_modulus: Complex, tests: pd.DataFrame, rng: Random) -> Fading:
     t = tests["temperature_C"].to_numpy(float)
     weight = np.exp((t - t.max()) / rng.uniform(8.0, 20.0))
     return weight, weight
 
 
-def _clock(log_modulus: Complex, tests: pd.DataFrame, rng: np.random.Generator) -> tuple[Vector, Vector]:
+def _clock(log_modulus: Complex, tests: pd.DataFrame, rng: Random) -> Fading:
     """Films flow faster under load: |E*| falls with the slope n of ln|E*| over ln f, the phase rises with n^2."""
     n = log_modulus.imag / log_modulus.imag.max()
     return n, n**2
 
 
-def _steep(log_modulus: Complex, tests: pd.DataFrame, rng: np.random.Generator) -> tuple[Vector, Vector]:
+def _steep(log_modulus: Complex, tests: pd.DataFrame, rng: Random) -> Fading:
     """More at low frequencies, where strains last."""
     f = tests["frequency_Hz"].to_numpy(float)
     weight = _softness(log_modulus) ** 1.5 * (f / f.min()) ** -rng.uniform(0.0, 0.15)
     return weight, weight
 
 
-def _stress(log_modulus: Complex, tests: pd.DataFrame, rng: np.random.Generator) -> tuple[Vector, Vector]:
+def _stress(log_modulus: Complex, tests: pd.DataFrame, rng: Random) -> Fading:
     """|E*| and phase fade at rates of their own."""
     soft = _softness(log_modulus)
     return soft ** rng.uniform(0.8, 1.5), soft ** rng.uniform(2.0, 4.0)
 
 
-FORMS: dict[str, Callable[[Complex, pd.DataFrame, np.random.Generator], tuple[Vector, Vector]]] = {
+FORMS: dict[str, Callable[[Complex, pd.DataFrame, Random], Fading]] = {
     "with softness": _by_softness,
     "beyond a bound": _beyond,
     "with temperature": _by_temperature,
@@ -93,14 +90,10 @@ FORMS: dict[str, Callable[[Complex, pd.DataFrame, np.random.Generator], tuple[Ve
 
 
 def campaigns(first: int, seed: int = SEED, tables: int = TABLES) -> Iterator[Campaign]:
-    """Sound campaigns of four isotherms or more, from number `first` on; every second laboratory is a careful one."""
-    number, given = first, 0
-    while given < tables:
-        campaign = invented(number, seed)
-        number += 1
-        if campaign.broken is None and len(campaign.isotherms) >= LEAST_ISOTHERMS:
-            given += 1
-            yield careful(campaign) if given % 2 else campaign
+    """Sound campaigns of four isotherms or more, from number `first` on; by a careful laboratory, then a usual one."""
+    several = (one for one in sound_campaigns(seed, first) if len(one.isotherms) >= LEAST_ISOTHERMS)
+    for k, campaign in enumerate(islice(several, tables)):
+        yield campaign if k % 2 else careful(campaign)
 
 
 def careful(campaign: Campaign) -> Campaign:
@@ -112,7 +105,7 @@ def careful(campaign: Campaign) -> Campaign:
     return replace(campaign, response=response, own=CAREFUL * campaign.own, warmer=CAREFUL * campaign.warmer)
 
 
-def not_linear(campaign: Campaign, form: str, rng: np.random.Generator) -> pd.DataFrame:
+def not_linear(campaign: Campaign, form: str, rng: Random) -> pd.DataFrame:
     """The table of a mix that is not linear."""
     linear = campaign.unmoved()
     lost, gained = FORMS[form](linear, campaign.tests, rng)
@@ -120,7 +113,7 @@ def not_linear(campaign: Campaign, form: str, rng: np.random.Generator) -> pd.Da
     return written(campaign, linear + moved)
 
 
-def offset(campaign: Campaign, rng: np.random.Generator) -> tuple[pd.DataFrame, float]:
+def offset(campaign: Campaign, rng: Random) -> tuple[pd.DataFrame, float]:
     """A table whose phases are all off, and by how much [deg]."""
     size = OFFSET * float(rng.choice((-1.0, 1.0)))
     table = put(campaign, (Fault("phase_offset", size),))
@@ -142,10 +135,8 @@ def tables(seed: int = SEED, number: int = TABLES) -> Iterator[tuple[Campaign, p
 
 def tried(campaign: Campaign, table: pd.DataFrame, form: str, size: float) -> dict[str, Any]:
     """What was put in, and what was said: a name with "!" is established; `turned_deg`: most by corrected.csv."""
+    found = diagnosed(table, campaign.bench)
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "measured.csv")
-        table.to_csv(path, index=False)
-        found = an.diagnose(path, measured_in=campaign.bench)
         found.write(folder)
         corrected = pd.read_csv(Path(folder, "corrected.csv"))
     entries = names(found.content)

@@ -27,13 +27,10 @@ OF_ONE_PLACE = (
     "temperature of one specimen on one isotherm",
 )  # fmt: skip
 SLIPS = ("single bad test", "slip of ten", "wrong recorded temperature")
+MASKED = "masked pair of bad tests"
 LARGEST = {
-    "temperature_bias": 8.0,
-    "specimen_geometry": 1.5,
-    "self_heating": 12.0,
-    "damage": 0.7,
-    "strain_softening": 0.7,
-}
+    "temperature_bias": 8.0, "specimen_geometry": 1.5, "self_heating": 12.0, "damage": 0.7, "strain_softening": 0.7,
+}  # fmt: skip
 # Of so many campaigns one can have the cause.
 EVERY = {
     "strain_softening": AMPLITUDES_EVERY, "damage": ORDER_EVERY, "loose_clamp": 2.0, "guide_friction": 2.0,
@@ -41,14 +38,7 @@ EVERY = {
 }  # fmt: skip
 LEAST_PHASE = 0.2  # deg
 LARGEST_PHASE = 10.0  # deg, of an offset
-ONE_SIGN = (
-    "self_heating",
-    "loose_clamp",
-    "guide_friction",
-    "strain_softening",
-    "damage",
-    "secondary_process",
-)
+ONE_SIGN = "self_heating loose_clamp guide_friction strain_softening damage secondary_process".split()
 
 Limits = Mapping[str, Mapping[str, Any]]
 
@@ -90,7 +80,7 @@ def cases(campaign: Campaign, number: int, limits: Limits, of_one_place: Limits)
         yield Case("place", (fault,), AT_ONCE)
     yield Case("slip", (_slip(campaign, SLIPS[number % len(SLIPS)], rng),))
     if len(campaign.tests["frequency_Hz"].unique()) > 3:
-        yield Case("slip", (_slip(campaign, "masked pair of bad tests", rng),))
+        yield Case("slip", (_slip(campaign, MASKED, rng),))
 
 
 def at_three_limits(campaign: Campaign, cause: str, limits: Limits, rng: np.random.Generator) -> Fault | None:
@@ -103,21 +93,16 @@ def at_three_limits(campaign: Campaign, cause: str, limits: Limits, rng: np.rand
 def _balanced(campaign: Campaign, pool: Sequence[str], limits: Limits, rng: np.random.Generator) -> list[str]:
     """Causes that can be drawn, by chance; those that few campaigns can have come first so much more often."""
     shown = [cause for cause in pool if _drawable(campaign, cause, limits)]
+    if not shown:
+        return []
     weight = np.array([EVERY.get(cause, 1.0) for cause in shown])
-    return (
-        [str(one) for one in rng.choice(shown, len(shown), replace=False, p=weight / weight.sum())]
-        if shown
-        else []
-    )
+    return rng.choice(shown, len(shown), replace=False, p=weight / weight.sum()).tolist()
 
 
 def _drawable(campaign: Campaign, cause: str, limits: Limits) -> bool:
     needed = {"strain_softening": "amplitude_m", "damage": "order"}.get(cause)
-    return (
-        cause in limits
-        and limits[cause]["unit"] == UNITS[cause]
-        and (needed is None or needed in campaign.tests)
-    )
+    known = cause in limits and limits[cause]["unit"] == UNITS[cause]
+    return known and (needed is None or needed in campaign.tests)
 
 
 def _limit(campaign: Campaign, cause: str, limits: Limits, rng: np.random.Generator) -> Fault:
@@ -194,12 +179,10 @@ def _outside(campaign: Campaign, kind: str, limits: Limits, rng: np.random.Gener
 def _of_one_place(campaign: Campaign, kind: str, limits: Limits, seed: list[int]) -> Fault | None:
     """A fault at three of its own limits, at a place where that is physical; None where there is none."""
     rng = np.random.default_rng(seed)
-    limit, most = (
-        limits.get(kind, {"places": []}),
-        LARGEST["temperature_bias"] if "temperature" in kind else np.inf,
-    )
+    places = limits.get(kind, {"places": []})["places"]
+    most = LARGEST["temperature_bias"] if "temperature" in kind else np.inf
     most = LARGEST_PHASE if "offset" in kind else most
-    at = [dict(one) for one in limit["places"] if AT_ONCE * one["value"] <= most]
+    at = [dict(one) for one in places if AT_ONCE * one["value"] <= most]
     for one in at:
         if (t := one["temperature_C"]) is not None:
             one["temperature_C"] = min(campaign.isotherms, key=lambda own: abs(own - t))
@@ -213,11 +196,8 @@ def _of_one_place(campaign: Campaign, kind: str, limits: Limits, seed: list[int]
 
 
 def _slip(campaign: Campaign, kind: str, rng: np.random.Generator) -> Fault:
-    sign, name, t = (
-        float(rng.choice((-1.0, 1.0))),
-        str(rng.choice(campaign.specimens)),
-        float(rng.choice(_sound(campaign))),
-    )
+    sign, name = float(rng.choice((-1.0, 1.0))), str(rng.choice(campaign.specimens))
+    t = float(rng.choice(_sound(campaign)))
     sweep = campaign.tests.loc[campaign.at(name, t), "frequency_Hz"].unique()
     if kind == "wrong recorded temperature":
         return Fault(kind, sign * float(rng.uniform(1.5, 1.9)), specimen=name, temperature=t)

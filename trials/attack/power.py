@@ -8,25 +8,23 @@ has scatter alone.
 
 from __future__ import annotations
 
-import tempfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from itertools import islice
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
+from drawn.design import factorial
 from scipy.optimize import brentq
 from scipy.special import ndtr
-
-import asphalt_nscd as an
 
 from .faults import UNITS, Fault, put
 from .judge import names, right
 from .laboratory import BENDING, CYLINDER, Campaign, everyday
-from .mixes import LAWS, SHIFTS, Mix
+from .mixes import LAWS, SHIFTS, Complex, Mix, Vector
 from .not_linear import careful
 from .rates import line
+from .trial import diagnosed
 
 SEED = 20290117  # set after the law learned to bend where binders turn to glass, before any table was drawn
 MIXES = 8  # of each campaign and each kind of laboratory
@@ -35,7 +33,7 @@ CAMPAIGNS = {
     "AASHTO T 378": (CYLINDER, (4.0, 20.0, 40.0), (0.1, 1.0, 10.0)),
     "EN 12697-26": (BENDING, (-10.0, 0.0, 10.0, 15.0, 20.0, 30.0), (3.0, 6.0, 10.0, 25.0, 30.0, 40.0)),
 }
-SPECIMENS = 3
+SPECIMENS = "S1", "S2", "S3"
 CAUSES = (
     "phase_offset", "channel_delay", "temperature_bias", "specimen_geometry", "self_heating", "loose_clamp",
     "guide_friction", "moving_mass",
@@ -45,11 +43,8 @@ THRESHOLD, Z_95 = 3.7, 1.645  # standard errors that a name takes, and that 19 o
 HALF, MOST = 0.5, 0.95
 LEAST_SHOWN = 0.75  # of the tables, in which a cause must have a limit
 
-VERY_CAREFUL = (
-    4,
-    (0.004, 0.01),
-    (0.06, 0.2),
-)  # specimens, scatter of |E*| and of the phase [deg]; else nothing
+# Specimens, scatter of |E*| and of the phase [deg]; else nothing.
+VERY_CAREFUL = 4, (0.004, 0.01), (0.06, 0.2)
 TABLES = 40
 ISOTHERM, CLAMP = 1.2, 3e-12  # K; 1/Pa
 
@@ -60,29 +55,17 @@ def campaigns() -> Iterator[tuple[str, str, Campaign]]:
         for number in range(MIXES):
             rng = np.random.default_rng([SEED, row, number])
             mix = Mix.draw(list(LAWS)[number % len(LAWS)], list(SHIFTS)[number % len(SHIFTS)], rng)
-            tests = _tests(SPECIMENS, temperatures, frequencies)
+            tests = factorial(SPECIMENS, temperatures, frequencies)
             usual = everyday(name, bench, tests, mix, rng)
             yield name, "usual", usual
             yield name, "careful", careful(usual)
-
-
-def _tests(specimens: int, temperatures: tuple[float, ...], frequencies: tuple[float, ...]) -> pd.DataFrame:
-    rows = [(f"S{k + 1}", t, f) for k in range(specimens) for t in temperatures for f in frequencies]
-    return pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz"])
-
-
-def _content(campaign: Campaign, faults: tuple[Fault, ...]) -> Mapping[str, Any]:
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder, "measured.csv")
-        put(campaign, faults).to_csv(path, index=False)
-        return an.diagnose(path, measured_in=campaign.bench).content
 
 
 def limits(part: int = 0, parts: int = 1) -> pd.DataFrame:
     """The limit that each table of a part states of each cause, in its unit; the median of its places."""
     rows = []
     for name, laboratory, campaign in islice(campaigns(), part, None, parts):
-        stated = _content(campaign, ())["detection_limits"]
+        stated = diagnosed(put(campaign, ()), campaign.bench).content["detection_limits"]
         for cause in CAUSES:
             places = stated.get(cause, {}).get("places", {"": stated.get(cause, {}).get("value", np.inf)})
             value = float(np.median(list(places.values())))
@@ -93,15 +76,14 @@ def limits(part: int = 0, parts: int = 1) -> pd.DataFrame:
 def sizes(stated: pd.DataFrame) -> pd.DataFrame:
     """Size at which each cause is named in half and in 19 of 20 tables, in the unit of `shown`."""
     rows = []
-    for (campaign, laboratory, cause), part in stated.groupby(
-        ["campaign", "laboratory", "cause"], sort=False
-    ):
-        limit = part["limit"].to_numpy()
+    keys = ["campaign", "laboratory", "cause"]
+    for key, part in stated.groupby(keys, sort=False):
+        limit, unit = part["limit"].to_numpy(), UNITS[key[-1]]
         if np.isfinite(limit).mean() < LEAST_SHOWN:
             continue
-        unit, factor = SHOWN.get(UNITS[cause], (UNITS[cause], 1.0))
+        unit, factor = SHOWN.get(unit, (unit, 1.0))
         named = {f"named_{share:.0%}": factor * _size_named(limit, share) for share in (HALF, MOST)}
-        rows.append({"campaign": campaign, "laboratory": laboratory, "cause": cause, "unit": unit, **named})
+        rows.append(dict(zip(keys, key)) | {"unit": unit, **named})
     return pd.DataFrame(rows)
 
 
@@ -122,16 +104,18 @@ def very_careful(number: int) -> tuple[Campaign, np.random.Generator]:
     bench, temperatures, frequencies = CAMPAIGNS["EN 12697-26"]
     rng = np.random.default_rng([SEED, 9, number])
     mix = Mix.draw(list(LAWS)[number % len(LAWS)], list(SHIFTS)[(number // 2) % len(SHIFTS)], rng)
-    tests = _tests(specimens, temperatures, frequencies)
+    tests = factorial([f"S{k + 1}" for k in range(specimens)], temperatures, frequencies)
     n, t, f = len(tests), tests["temperature_C"].to_numpy(), tests["frequency_Hz"].to_numpy()
     scatter = rng.uniform(*modulus) * rng.standard_normal(n)
     scatter = scatter + 1j * np.radians(rng.uniform(*phase)) * rng.standard_normal(n)
     level = 0.03 * rng.standard_normal(specimens)
     own = scatter + np.repeat(level, n // specimens)
     none = np.zeros(n)
-    return Campaign(
-        f"table {number + 1}", bench, tests, lambda w, u: mix.log_modulus(f * u, t + w, none), own, none
-    ), rng
+
+    def response(warming: Vector, tuning: Vector) -> Complex:
+        return mix.log_modulus(f * tuning, t + warming)
+
+    return Campaign(f"table {number + 1}", bench, tests, response, own, none), rng
 
 
 def tried(number: int) -> list[dict[str, Any]]:
@@ -141,14 +125,14 @@ def tried(number: int) -> list[dict[str, Any]]:
     warm = Fault("temperature_bias", sign * ISOTHERM, temperature=float(rng.choice(campaign.isotherms[1:-1])))
     loose = Fault("loose_clamp", CLAMP, specimen=str(rng.choice(campaign.specimens)))
     rows = []
-    for fault in (None, (warm, loose)[number % 2]):
-        content = _content(campaign, () if fault is None else (fault,))
+    for faults in ((), ((warm, loose)[number % 2],)):
+        content = diagnosed(put(campaign, faults), campaign.bench).content
         told = names(content)
         rows.append(
             {
-                "table": campaign.name, "fault": "nothing" if fault is None else fault.kind,
+                "table": campaign.name, "fault": faults[0].kind if faults else "nothing",
                 "names": " ".join(one["cause"] + "!" * bool(one["established"]) for one in told),
-                "named": fault is not None and any(right(one, fault, content) for one in told),
+                "named": any(right(one, fault, content) for one in told for fault in faults),
             }
         )  # fmt: skip
     return rows

@@ -9,9 +9,10 @@ import numpy as np
 import pandas as pd
 from scipy.stats import binomtest
 
-from .plan import OF_ONE_PLACE
+from .plan import MASKED, OF_ONE_PLACE, SLIPS
 
 SWEEP = "temperature of one specimen on one isotherm"
+WRONG = ["wrong_confident", "wrong_possible"]  # names
 BINS = (0.0, 0.5, 0.7, 0.9, 0.95, 0.99, 1.0)  # of stated probabilities
 
 
@@ -27,22 +28,13 @@ def rate(hits: Iterable[Any]) -> dict[str, float]:
 
 def by_fault(rows: pd.DataFrame) -> pd.DataFrame:
     """How often a fault was named, told, removed, and what was wrong beside it, by fault and size over limit."""
-    out = []
-    keys = ["measured", "suite", "fault", "ratio"]
-    for key, part in rows.groupby(keys, dropna=False):
-        row = dict(zip(keys, key)) | {"n": len(part)}
-        for name in ("named", "confident", "told", "removed", "covered"):
-            row[name] = (
-                int(part[name].dropna().astype(bool).sum())
-                if name in part and part[name].notna().any()
-                else None
-            )
-        row |= {
-            name: int((part[name] > 0).sum())
-            for name in ("wrong_confident", "wrong_possible", "good_rejected")
-        }
-        out.append(row)
-    return pd.DataFrame(out)
+    said = ["named", "confident", "told", "removed", "covered"]
+    beside = [*WRONG, "good_rejected"]
+    counts = rows.reindex(columns=["measured", "suite", "fault", "ratio", *said]).assign(n=1)
+    counts[said] = counts[said].astype(float)
+    counts[beside] = rows[beside] > 0
+    by_fault = counts.groupby(["measured", "suite", "fault", "ratio"], dropna=False)
+    return by_fault[["n", *said, *beside]].sum(min_count=1).reset_index()
 
 
 def coverage(rows: pd.DataFrame) -> pd.DataFrame:
@@ -91,26 +83,15 @@ def _off(names: pd.DataFrame) -> list[bool]:
 def summary(rows: pd.DataFrame, names: pd.DataFrame, before: pd.DataFrame | None = None) -> pd.DataFrame:
     """Each criterion with its rate, interval, and whether it is met; before: the summary of an earlier commit."""
     invented, real = rows[~rows["measured"]], rows[rows["measured"]]
-    put = invented[invented["suite"] == "catalogue"]
-    empty = invented[invented["suite"] == "nothing"]
+    put, empty, pair, outside, own, slips = (
+        invented[invented["suite"] == suite]
+        for suite in ("catalogue", "nothing", "pair", "outside", "place", "slip")
+    )
     # A broken isotherm is structure that no cause has: such a table rightly ends unexplained.
     left, cracked = empty["verdict"] == "unexplained_structure", empty["broken"].astype(bool)
-    pair = invented[invented["suite"] == "pair"]
-    outside = invented[invented["suite"] == "outside"]
-    slip = {kind: part for kind, part in invented[invented["suite"] == "slip"].groupby("fault")}
-    none = rows.iloc[:0]
-    masked, ten, alone, noted = (
-        slip.get(kind, none)
-        for kind in (
-            "masked pair of bad tests",
-            "slip of ten",
-            "single bad test",
-            "wrong recorded temperature",
-        )
-    )
-    false_bias = noted[["wrong_confident", "wrong_possible"]].sum(axis=1) > 0
+    alone, ten, noted, masked = (slips[slips["fault"] == kind] for kind in (*SLIPS, MASKED))
+    false_bias = noted[WRONG].sum(axis=1) > 0
     broken = empty.loc[empty["broken"], "broken_found"]
-    own = invented[invented["suite"] == "place"]
     drawn = outside[outside["fault"].isin(OF_ONE_PLACE)]
     warm = drawn["fault"] == SWEEP
     beside = invented.loc[invented["suite"].isin(("catalogue", "pair")), "wrong_confident"] > 0
@@ -173,12 +154,7 @@ def inside(rows: pd.DataFrame) -> pd.DataFrame:
         [
             line("inside NSCD runs at 3 limits: named", ">= 95 %", put["named"], low=0.95),
             line("the same: a wrong name with confidence", "none", put["wrong_confident"] > 0, high=0.0),
-            line(
-                "nothing put in: a name",
-                "none",
-                empty[["wrong_confident", "wrong_possible"]].sum(axis=1) > 0,
-                high=0.0,
-            ),
+            line("nothing put in: a name", "none", empty[WRONG].sum(axis=1) > 0, high=0.0),
             line("size in its 95 % interval", "reported", put["covered"]),
         ]
     )

@@ -21,19 +21,24 @@ from .laboratory import Campaign, invented
 FAILED = {"ladder": [], "detection_limits": {}, "indistinguishable": []}
 
 
-def answered(table: pd.DataFrame, bench: str) -> tuple[dict[str, Any], str]:
-    """Content of diagnosis.json and the answer on the screen. A refusal is an answer; a failure is told apart."""
-    began = time.process_time()
+def diagnosed(table: pd.DataFrame, bench: str) -> an.Diagnosis:
+    """A table as a file, through what users call."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, "measured.csv")
         table.to_csv(path, index=False)
-        try:
-            found = an.diagnose(path, measured_in=bench)
-            content, answer = dict(found.content), str(found)
-        except an.InputError as error:
-            content, answer = {**FAILED, "verdict": "refused"}, str(error).replace(folder, "")
-        except Exception as error:
-            content, answer = {**FAILED, "verdict": "failed"}, failure(error)
+        return an.diagnose(path, measured_in=bench)
+
+
+def answered(table: pd.DataFrame, bench: str) -> tuple[dict[str, Any], str]:
+    """Content of diagnosis.json and the answer on the screen. A refusal is an answer; a failure is told apart."""
+    began = time.process_time()
+    try:
+        found = diagnosed(table, bench)
+        content, answer = dict(found.content), str(found)
+    except an.InputError as error:
+        content, answer = {**FAILED, "verdict": "refused"}, str(error)
+    except Exception as error:
+        content, answer = {**FAILED, "verdict": "failed"}, failure(error)
     return content | {"cpu_s": round(time.process_time() - began, 2)}, answer
 
 
@@ -68,9 +73,8 @@ def attacked(number: int, size: Size) -> Iterator[dict[str, Any]]:
     under, turn = size.campaign(number)
     bare = plan.Case("nothing")
     content, answer = answered(put(under, ()), under.bench)
-    own = (
-        [(e["cause"], str(e.get("where"))) for e in judge.names(content)] if "measured" in under.about else []
-    )
+    named = judge.names(content) if "measured" in under.about else []
+    own = [(e["cause"], str(e.get("where"))) for e in named]
     yield _line(under, bare, content, answer, own)
     if size.tables <= number < size.tables + size.empty:
         return

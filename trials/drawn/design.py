@@ -16,11 +16,11 @@ def factorial(
     specimens: Sequence[str] = "ABCD",
     temperatures: Sequence[float] = (-10.0, 0.0, 10.0, 15.0, 20.0, 30.0),
     frequencies: Sequence[float] = (3.0, 6.0, 10.0, 25.0, 40.0),
+    **more: Sequence[float],
 ) -> pd.DataFrame:
-    """Every combination as one row: specimen, temperature_C, frequency_Hz."""
-    names = ["specimen", "temperature_C", "frequency_Hz"]
-    levels = [list(specimens), list(temperatures), list(frequencies)]
-    return pd.MultiIndex.from_product(levels, names=names).to_frame(index=False)
+    """Every combination as one row: specimen, temperature_C, frequency_Hz, and `more` columns with their levels."""
+    levels = {"specimen": list(specimens), "temperature_C": temperatures, "frequency_Hz": frequencies} | more
+    return pd.MultiIndex.from_product(levels.values(), names=levels).to_frame(index=False)
 
 
 def scattered(seed: int, design: pd.DataFrame, shape: str | None = None) -> pd.DataFrame:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pandas as pd
+from drawn.design import factorial
 from drawn.laws import draw_law
 from drawn.reallike import KINDS, Sizes
 
@@ -45,11 +46,7 @@ def _design(rng: Random) -> Table:
     levels = np.round(low + np.cumsum(rng.uniform(1.0, 15.0, temperatures)), 1)
     band = BRANCH if rng.random() < 0.1 else (0.1, 30.0)
     tested = np.unique(np.round(np.exp(rng.uniform(*np.log(band), frequencies)), 4))
-    names = [f"S{n}" for n in range(specimens)]
-    grid = pd.MultiIndex.from_product(
-        [names, levels, tested], names=["specimen", "temperature_C", "frequency_Hz"]
-    )
-    return grid.to_frame(index=False)
+    return factorial([f"S{n}" for n in range(specimens)], levels, tested)
 
 
 def _measured(design: Table, rng: Random) -> Table:
@@ -70,9 +67,8 @@ def _real_like(kind: str) -> Callable[[Table, Random], Table]:
         if table["frequency_Hz"].nunique() < 2:
             return table
         added = rng.uniform(0.5, 3.0) * KINDS[kind](table, SIZES, rng)
-        return table.assign(
-            E_MPa=table["E_MPa"] * np.exp(added.real), phase_deg=table["phase_deg"] + np.degrees(added.imag)
-        )
+        phase = table["phase_deg"] + np.degrees(added.imag)
+        return table.assign(E_MPa=table["E_MPa"] * np.exp(added.real), phase_deg=phase)
 
     return fault
 
@@ -116,17 +112,14 @@ def _scaled(table: Table, rng: Random) -> Table:
 
 def _elastic(table: Table, rng: Random) -> Table:
     """A reference beam: one modulus, phases of about zero, at times zero exactly."""
-    scatter = rng.choice([0.0, 0.05])
-    size = len(table)
-    return table.assign(
-        E_MPa=7e4 * (1.0 + 0.01 * rng.standard_normal(size)), phase_deg=scatter * rng.standard_normal(size)
-    )
+    phase_scatter = rng.choice([0.0, 0.05])
+    modulus, phase = rng.standard_normal((2, len(table)))
+    return table.assign(E_MPa=7e4 * (1.0 + 0.01 * modulus), phase_deg=phase_scatter * phase)
 
 
 def _viscous(table: Table, rng: Random) -> Table:
-    return table.assign(
-        E_MPa=0.2 + 0.02 * table["frequency_Hz"], phase_deg=89.5 + 0.2 * rng.standard_normal(len(table))
-    )
+    phase = 89.5 + 0.2 * rng.standard_normal(len(table))
+    return table.assign(E_MPa=0.2 + 0.02 * table["frequency_Hz"], phase_deg=phase)
 
 
 def _nearly_equal(table: Table, rng: Random) -> Table:
@@ -145,9 +138,8 @@ def _unsorted(table: Table, rng: Random) -> Table:
 def _rounded(table: Table, rng: Random) -> Table:
     """Whole degrees and two or three digits of the modulus."""
     digits = 10.0 ** (np.floor(np.log10(table["E_MPa"].clip(*MODULUS))) - rng.integers(1, 3))
-    return table.assign(
-        E_MPa=np.round(table["E_MPa"] / digits) * digits, phase_deg=table["phase_deg"].round()
-    )
+    modulus = np.round(table["E_MPa"] / digits) * digits
+    return table.assign(E_MPa=modulus, phase_deg=table["phase_deg"].round())
 
 
 def _mean_temperatures(table: Table, rng: Random) -> Table:

@@ -9,7 +9,8 @@ from attack.trial import Size
 ATTACK_COMMAND = (
     f"env PYTHONPATH={CLONE / 'trials'}:${{{{PYTHONPATH-}}}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m attack"
 )
-ATTACK_CODE = sorted(os.path.relpath(path) for path in (CLONE / "trials/attack").glob("*.py"))
+TRIALS = CLONE / "trials"
+ATTACK_CODE = sorted(os.path.relpath(path) for path in [*TRIALS.glob("attack/*.py"), *TRIALS.glob("drawn/*.py")])
 ATTACK_PARTS = 48  # jobs, each with every 48th campaign: an interrupt costs the minutes of one at most
 ATTACK_TABLES = "cases names by_fault coverage reliability before summary".split()
 SOME_PARTS = 8  # jobs of each trial of a hundred tables or so

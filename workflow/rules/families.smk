@@ -17,7 +17,7 @@ FAMILY = "<results>/families/{family}/"
 rule draw_family:
     """Measurements of a mix of another family of laws, with the design and scatter of those of the study."""
     input:
-        code=[shipped(f"trials/{name}.py") for name in ("families", "drawn/laws")] if DRAWN else [],
+        code=[shipped(f"trials/{name}.py") for name in ("families", "drawn/design", "drawn/laws")] if DRAWN else [],
     output:
         f"{FAMILY}moduli.csv",
     log:

@@ -54,13 +54,15 @@ SCRIPTED |= {
 
 # A program of trials/, whose modules are beside it.
 TRIAL = f"env PYTHONPATH={CLONE / 'trials'}:${{PYTHONPATH-}} OPENBLAS_NUM_THREADS=1 {sys.executable} -m"
+# What such programs draw their tables by.
+INVENTED = [f"trials/{name}.py" for name in ("attack/laboratory", "attack/mixes", "drawn/design", "drawn/laws")]
 
 
 rule drawn_excess:
     """Whether the excess phase of tables without one is none, and whether its interval says so. Three minutes."""
     input:
         code=code("diagnose", *modules_of("diagnosis.causes")),
-        generator=[f"trials/{name}.py" for name in ("excess", "attack/laboratory", "attack/mixes")],
+        generator=["trials/excess.py", *INVENTED],
     output:
         rows="results/excess/excess.csv",
         summary="results/excess/summary.csv",
@@ -83,7 +85,7 @@ rule reported_intervals:
     input:
         measured="data/mixes50/modulus.csv",
         code=code("diagnose", *modules_of("diagnosis.causes")),
-        generator=[f"trials/{name}.py" for name in ("extrapolation", "attack/laboratory", "attack/mixes")],
+        generator=["trials/extrapolation.py", *INVENTED],
     output:
         grid="results/intervals/grid.csv",
         summary="results/intervals/summary.csv",
