@@ -123,19 +123,12 @@ class Trial:
 
 def counted(outcomes: pd.DataFrame) -> pd.DataFrame:
     """A row for each function and one for all: calls, how many ended how, CPU seconds."""
-    groups = [*outcomes.groupby("function"), ("all", outcomes)]
-    return pd.DataFrame(
-        [
-            {
-                "function": name,
-                "calls": len(part),
-                **{end.replace(" ", "_"): int((part["ended"] == end).sum()) for end in ENDS},
-                "cpu_s_median": part["cpu_s"].median(),
-                "cpu_s_largest": part["cpu_s"].max(),
-            }
-            for name, part in groups
-        ]
-    )
+    rows = []
+    for name, part in [*outcomes.groupby("function"), ("all", outcomes)]:
+        row = {"function": name, "calls": len(part)}
+        row |= {end.replace(" ", "_"): int((part["ended"] == end).sum()) for end in ENDS}
+        rows.append(row | {"cpu_s_median": part["cpu_s"].median(), "cpu_s_largest": part["cpu_s"].max()})
+    return pd.DataFrame(rows)
 
 
 @click.command()

@@ -90,26 +90,16 @@ def _own_line(error: Exception) -> str:
 def rates(outcomes: Iterable[Outcome]) -> pd.DataFrame:
     """Rates of the ends with 95 % intervals, and CPU seconds: median, 95th percentile, largest."""
     table = pd.DataFrame([asdict(outcome) for outcome in outcomes])
-    rows = []
     ends = {end: table["ended"] == end for end in ("diagnosed", "refused", "traceback")}
-    for what, hits in (ends | {"numerical warning": table["warned"] != ""}).items():
-        rows.append({"what": what, **rate(hits)})
+    ends["numerical warning"] = table["warned"] != ""
+    rows = [{"what": what, **rate(hits)} for what, hits in ends.items()]
     done = table[table["ended"] == "diagnosed"]
     few = done["tests"] <= SHORT
-    for what, part in (
-        (f"tables of up to {SHORT} tests", done[few]),
-        (f"of {SHORT + 1} to {wild.MOST_TESTS}", done[~few]),
-    ):
-        seconds = part["cpu_s"]
-        rows.append(
-            {
-                "what": f"CPU seconds, {what}",
-                "n": len(part),
-                "median": seconds.median(),
-                "most_95_percent": seconds.quantile(0.95),
-                "largest": seconds.max(),
-            }
-        )
+    kinds = {f"tables of up to {SHORT} tests": few, f"of {SHORT + 1} to {wild.MOST_TESTS}": ~few}
+    for what, part in kinds.items():
+        seconds = done.loc[part, "cpu_s"]
+        row = {"what": f"CPU seconds, {what}", "n": len(seconds), "median": seconds.median()}
+        rows.append(row | {"most_95_percent": seconds.quantile(0.95), "largest": seconds.max()})
     return pd.DataFrame(rows)
 
 
@@ -127,9 +117,8 @@ def main(number: int, first: int, jobs: int | None, output: Path | None) -> None
             if outcome.ended == "traceback":
                 click.echo(f"seed {outcome.seed} ({outcome.faults}): {outcome.said} [{outcome.where}]")
     table = rates(outcomes)
-    failures = pd.DataFrame(
-        [asdict(o) for o in outcomes if o.ended == "traceback"], columns=[*Outcome.__annotations__]
-    )
+    failed = [asdict(one) for one in outcomes if one.ended == "traceback"]
+    failures = pd.DataFrame(failed, columns=[*Outcome.__annotations__])
     if output is not None:
         write_table(output / "wild.csv", table)
         write_table(output / "wild_failures.csv", failures.drop(columns="cpu_s"))

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from drawn.design import factorial
 
 import asphalt_nscd as an
 from asphalt_nscd.exports.formats import FORMATS, format_of
@@ -68,32 +69,25 @@ def specimens() -> list[an.Specimen]:
     beam = {"b_mm": 16, "B_mm": 20, "e_mm": 20, "h_mm": 100, **masses}
     rod = {"d_mm": 25, "h_mm": 60, "mass_kg": 0.05, "mobile_mass_kg": 0.0}
     first, second, _ = packings()
-    return (
-        [an.specimen(first, beam, area=area) for area in ("paper", "facets")]
-        + [an.specimen(second, rod, area=area) for area in ("paper", "facets")]
-        + [an.specimen(first, {"L_mm": 100, "H_mm": 16, "B_mm": 20, **masses}, area="facets")]
-    )
+    prism = {"L_mm": 100, "H_mm": 16, "B_mm": 20, **masses}
+    asked = [(first, beam, "paper"), (first, beam, "facets"), (second, rod, "paper"), (second, rod, "facets")]
+    asked.append((first, prism, "facets"))
+    return [an.specimen(packing, shape, area=area) for packing, shape, area in asked]
 
 
 def pour(rng: Random) -> Call:
     """A few spheres of one to three sizes, into a box that mostly holds them."""
     sizes = rng.integers(1, 4)
-    diameters = np.round(
-        number(rng, Range(low=0.01, high=100.0), 6.0) * 10 ** rng.uniform(0.0, 1.05, sizes), 3
-    )
+    smallest = number(rng, Range(low=0.01, high=100.0), 6.0)
+    diameters = np.round(smallest * 10 ** rng.uniform(0.0, 1.05, sizes), 3)
     counts = {float(min(d, 100.0)): int(rng.integers(0, 40 // sizes)) for d in diameters}
     box = tuple(1e-3 * diameters.max() * rng.uniform([1.0, 1.0, 3.0], [6.0, 6.0, 30.0]))
     vibration = of_ranges(an.Vibration, rng, stroke=3e-3, frequency=30.0, duration=0.1)
-    step = number(rng, Range(low=1e-6, high=1e-3), 4e-4)
+    how: dict[str, Any] = {"time_step_s": number(rng, Range(low=1e-6, high=1e-3), 4e-4)}
     surfaces = of_ranges(an.Surfaces, rng, friction=0.3, wall_friction=0.3, restitution=0.1)
-    seed = int(rng.integers(0, 2**32))
+    how["seed"] = int(rng.integers(0, 2**32))
     return lambda: an.pour(
-        counts,
-        box,
-        seed=seed,
-        surfaces=an.Surfaces(**surfaces),
-        vibration=an.Vibration(**vibration),
-        time_step_s=step,
+        counts, box, surfaces=an.Surfaces(**surfaces), vibration=an.Vibration(**vibration), **how
     )
 
 
@@ -103,10 +97,8 @@ def specimen(rng: Random) -> Call:
     length, width, _ = 1e3 * packing.box_m
     height = length * (1.0 if rng.random() < 0.7 else rng.uniform(0.2, 1.05))
     across, wide = width * rng.uniform(0.3, 1.02), rng.uniform(4.0, 20.0)
-    masses = {
-        "mass_kg": number(rng, Range(low=1e-3, high=20.0), 0.1),
-        "mobile_mass_kg": rng.choice([0.0, 0.1, 5.0]),
-    }
+    mass = number(rng, Range(low=1e-3, high=20.0), 0.1)
+    masses = {"mass_kg": mass, "mobile_mass_kg": rng.choice([0.0, 0.1, 5.0])}
     shapes: list[dict[str, float]] = [
         {"b_mm": wide * rng.uniform(0.3, 1.0), "B_mm": wide, "e_mm": across, "h_mm": height},
         {"d_mm": across, "h_mm": height},
@@ -121,32 +113,27 @@ def specimen(rng: Random) -> Call:
 def burgers(rng: Random) -> dict[str, float]:
     """Parameters of any size."""
     usual = {"Em_Pa": 2e10, "eta_m_Pa_s": 4e9, "Ek_Pa": 4e10, "eta_k_Pa_s": 8e8}
-    return {name: number(rng, Range(above=0.0), size) for name, size in usual.items()} | {
-        "temperature_C": 15.0
-    }
+    drawn = {name: number(rng, Range(above=0.0), size) for name, size in usual.items()}
+    return drawn | {"temperature_C": 15.0}
 
 
 @cache
 def of_all_temperatures() -> an.Law:
     """A 2S2P1D, fitted."""
-    frequency = np.array([0.1, 1.0, 10.0])
-    table = pd.DataFrame(
-        {"temperature_C": np.repeat([0.0, 20.0, 40.0], 3), "frequency_Hz": np.tile(frequency, 3)}
-    )
-    table["E_MPa"], table["phase_deg"] = (
-        [15e3, 18e3, 21e3, 4e3, 7e3, 11e3, 6e2, 1.2e3, 2.6e3],
-        [10.0, 8, 6, 28, 22, 16, 38, 36, 32],
-    )
-    return an.fit(table)
+    tests = factorial("A", [0.0, 20.0, 40.0], [0.1, 1.0, 10.0]).drop(columns="specimen")
+    modulus = [15e3, 18e3, 21e3, 4e3, 7e3, 11e3, 6e2, 1.2e3, 2.6e3]
+    return an.fit(tests.assign(E_MPa=modulus, phase_deg=[10.0, 8, 6, 28, 22, 16, 38, 36, 32]))
 
 
 def law(rng: Random) -> Call:
     """A Burgers law, its modulus and the law of bonds that follows it."""
     parameters, f = burgers(rng), number(rng, Range(above=0.0), 10.0)
-    return lambda: (
-        an.Law.burgers(**parameters).complex_modulus([f, 2 * f]),
-        an.Law.burgers(**parameters).of_bonds(f, 15.0).parameters,
-    )
+
+    def call() -> tuple[Any, Any]:
+        made = an.Law.burgers(**parameters)
+        return made.complex_modulus([f, 2 * f]), made.of_bonds(f, 15.0).parameters
+
+    return call
 
 
 def bend(rng: Random) -> Call:
@@ -162,24 +149,19 @@ def bend(rng: Random) -> Call:
         load["rig"] = an.Rig(*np.abs(rng.normal(0.0, [1e-8, 1e5, 1.0, 0.1])), *rng.normal(0.0, [1e-4, 0.01]))
     numerics = of_ranges(an.Numerics, rng) | {"rest_steps": int(rng.choice([0, 20]))}
     numerics |= {"time_step": 1.0 / frequency / steps, "most_sweeps": 20}
-    return lambda: an.bend(
-        given,
-        an.Law.burgers(**parameters),
-        frequency,
-        15.0,
-        load=an.Load(**load),
-        bonds=an.Bonds(**bonds),
-        numerics=an.Numerics(**numerics),
-    )
+
+    def call() -> an.Test:
+        how = {"load": an.Load(**load), "bonds": an.Bonds(**bonds), "numerics": an.Numerics(**numerics)}
+        return an.bend(given, an.Law.burgers(**parameters), frequency, 15.0, **how)
+
+    return call
 
 
 def hold(rng: Random) -> Call:
     """A force or a displacement of any size, held for any time in few steps."""
     given, parameters = specimens()[rng.integers(5)], burgers(rng)
-    how: dict[str, Any] = {
-        "duration_s": number(rng, Range(above=0.0), 1.0),
-        "steps": int(rng.integers(10, 60)),
-    }
+    duration = number(rng, Range(above=0.0), 1.0)
+    how: dict[str, Any] = {"duration_s": duration, "steps": int(rng.integers(10, 60))}
     if rng.random() < 0.8:
         kind, usual = [("force_N", 100.0), ("displacement_m", 1e-5)][rng.integers(2)]
         how[kind] = rng.choice([1.0, -1.0]) * number(rng, Range(above=0.0), usual)
@@ -201,9 +183,8 @@ def solve_contacts(rng: Random) -> Call:
     """Bodies of masses over decades that touch at few or many points, with as many contacts as they need or more."""
     contacts = round(np.exp(rng.uniform(0.0, np.log(60.0))))
     bodies = max(1, round(contacts * rng.uniform(0.1, 2.0)))
-    arms = rng.normal(size=(3 * contacts, 6 * bodies)) * (
-        rng.random((3 * contacts, 6 * bodies)) < rng.uniform(0.05, 1.0)
-    )
+    arms = rng.normal(size=(3 * contacts, 6 * bodies))
+    arms *= rng.random(arms.shape) < rng.uniform(0.05, 1.0)
     mass = np.exp(rng.uniform(-20.0, 20.0, 6 * bodies) * rng.random() ** 3)
     w = (arms / mass) @ arms.T
     w = 0.5 * (w + w.T) * 10.0 ** rng.choice([0.0, 0.0, 0.0, -80.0, 80.0])
@@ -230,12 +211,8 @@ def read(rng: Random) -> Call:
 
 def export(rng: Random) -> Call:
     """A law, a packing or a specimen, in any form."""
-    what = [
-        an.Law.burgers(**burgers(rng)),
-        of_all_temperatures(),
-        packings()[0],
-        specimens()[rng.integers(5)],
-    ][rng.integers(4)]
+    made = an.Law.burgers(**burgers(rng))
+    what = [made, of_all_temperatures(), packings()[0], specimens()[rng.integers(5)]][rng.integers(4)]
     endings = {name: format_of(name).ENDINGS[0] for name in FORMATS} | {"vtk": ".vtp"}
     form = str(rng.choice(list(endings)))
     settings = {
@@ -261,10 +238,8 @@ def read_packing(rng: Random) -> Call:
     number = rng.integers(1, 50)
     if rng.random() < 0.5:  # apart, of the size of aggregate
         places = 9.0 * rng.permutation(np.indices((4, 4, 4)).reshape(3, -1).T)[:number]
-        spheres, unit = (
-            np.column_stack([places, rng.uniform(1.0, 4.4, number)]),
-            rng.choice([None, "mm", "mm"]),
-        )
+        spheres = np.column_stack([places, rng.uniform(1.0, 4.4, number)])
+        unit = rng.choice([None, "mm", "mm"])
     else:
         spheres = np.abs(rng.normal(size=(number, 4))) * 10.0 ** rng.uniform(-4.0, 2.0)
         unit = rng.choice([None, "m", "cm", "mm", "um"])
@@ -286,20 +261,9 @@ def diagnose(rng: Random) -> Call:
 
 
 SHARES = {
-    solve_contacts: 0.16,
-    hostile: 0.1,
-    law: 0.14,
-    specimen: 0.14,
-    bend: 0.12,
-    hold: 0.05,
-    fatigue: 0.03,
-    export: 0.08,
-    read: 0.06,
-    read_packing: 0.05,
-    pour: 0.04,
-    fit: 0.02,
-    diagnose: 0.01,
-}
+    solve_contacts: 0.16, hostile: 0.1, law: 0.14, specimen: 0.14, bend: 0.12, hold: 0.05, fatigue: 0.03,
+    export: 0.08, read: 0.06, read_packing: 0.05, pour: 0.04, fit: 0.02, diagnose: 0.01,
+}  # fmt: skip
 
 
 def called(seed: int) -> str:

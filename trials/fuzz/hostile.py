@@ -103,10 +103,8 @@ def hostile(rng: Random) -> Callable[[], Any]:
     box = tuple(rng.choice([BOX, BOX, (0.2, 0.2, 0.6), (1.0, 1.0, 1.0)]).tolist())
     shape = SHAPES[rng.integers(3)]
     area, yield_Pa = str(rng.choice(["paper", "facets"])), 10.0 ** rng.uniform(2.0, 7.0)
-    bonds, load = (
-        an.Bonds(yield_Pa=yield_Pa),
-        an.Load(amplitude_m=10.0 ** rng.uniform(-7.0, -3.0), cycles=1.0),
-    )
+    bonds = an.Bonds(yield_Pa=yield_Pa)
+    load = an.Load(amplitude_m=10.0 ** rng.uniform(-7.0, -3.0), cycles=1.0)
     pulled = an.Ramp(duration_s=10.0 ** rng.uniform(-3.0, 1.0), steps=20)
     vibration = an.Vibration(duration=float(rng.choice([0.0, 0.05])), frequency=10.0 ** rng.uniform(0.0, 3.0))
     surfaces = an.Surfaces(friction=rng.choice([0.0, 0.3, 10.0]), restitution=rng.choice([0.0, 0.5]))
@@ -121,8 +119,7 @@ def hostile(rng: Random) -> Callable[[], Any]:
             return an.bend(specimen, LAW, 10.0, 15.0, load=load, bonds=bonds, numerics=an.Numerics(1e-3, 5))
         if what == 2:
             return an.ramp(specimen, LAW, 15.0, pulled=pulled, bonds=bonds)
-        return an.hold(
-            specimen, LAW, 15.0, held=an.Hold(1.0, 20, force_N=10.0 ** rng.uniform(-2.0, 4.0)), bonds=bonds
-        )
+        held = an.Hold(1.0, 20, force_N=10.0 ** rng.uniform(-2.0, 4.0))
+        return an.hold(specimen, LAW, 15.0, held=held, bonds=bonds)
 
     return call

@@ -70,6 +70,14 @@ def _understood(path: Path) -> None:
     read_campaign([path])
 
 
+def _observed(path: Path) -> None:
+    read_observations(path, PAPER_GEOMETRY)
+
+
+def _geometry(path: Path) -> None:
+    read_geometry(path, ["1"])
+
+
 def _study(path: Path) -> None:
     """As Snakemake gives it: what YAML makes of the file, once no key appears twice."""
     refuse_repeated_keys(path)
@@ -121,74 +129,37 @@ def _diagnosis() -> bytes:
         return Results(Path(folder)).diagnosis()["diagnosis"][0].read_bytes()
 
 
+def _kept(*names: str) -> tuple[bytes, ...]:
+    """Files of the repository."""
+    return tuple((ROOT / name).read_bytes() for name in names)
+
+
 LAW = {
-    "law": "burgers",
-    "temperature_C": 20.0,
-    "Em_Pa": 2e10,
-    "eta_m_Pa_s": 1e9,
-    "Ek_Pa": 3e10,
-    "eta_k_Pa_s": 1e8,
-}
-CHAIN = _written(
-    lambda path: write_chain(
-        path,
-        KelvinChain(1e10, 1e9, (1e10, 2e10), (1e8, 1e7)),
-        source="fuzz",
-        temperature=0.0,
-        error=0.1,
-        lowest_hz=1.0,
-        highest_hz=10.0,
-    )
-)
-HDF5 = _written(
-    lambda path: save(path, "test", {"a/b": np.arange(6.0), "c": np.arange(3)}, {"x": 1.5, "y": "z"})
-)
+    "law": "burgers", "temperature_C": 20.0, "Em_Pa": 2e10, "eta_m_Pa_s": 1e9, "Ek_Pa": 3e10, "eta_k_Pa_s": 1e8,
+}  # fmt: skip
+ELEMENTS = KelvinChain(1e10, 1e9, (1e10, 2e10), (1e8, 1e7))
+STATED = {"source": "fuzz", "temperature": 0.0, "error": 0.1, "lowest_hz": 1.0, "highest_hz": 10.0}
+CHAIN = _written(lambda path: write_chain(path, ELEMENTS, **STATED))
+ARRAYS = {"a/b": np.arange(6.0), "c": np.arange(3)}
+HDF5 = _written(lambda path: save(path, "test", ARRAYS, {"x": 1.5, "y": "z"}))
 
 TEXTS = [
     Reader("any CSV table", read_csv, (MODULI.encode(), GEOMETRY.encode())),
     Reader("measurements", _reduced, (MODULI.encode(), PEAKS.encode(), RECORDS.encode())),
     Reader("record", _record, (RECORD.encode(),)),
-    Reader(
-        "observations",
-        lambda path: read_observations(path, PAPER_GEOMETRY),
-        (MODULI.encode(), PEAKS.encode()),
-    ),
+    Reader("observations", _observed, (MODULI.encode(), PEAKS.encode())),
     Reader("own table", _understood, (OWN.encode(), OWN.encode("cp1252", "replace"), MODULI.encode())),
     Reader("sieve table", read_grading, (b"sieve (mm);passing (%)\n2;20\n4;55,5\n8;100\n",)),
     Reader("counts", read_counts, (b"diameter_mm,count\n2,600\n3,200\n",)),
-    Reader("geometry table", lambda path: read_geometry(path, ["1"]), (GEOMETRY.encode(),)),
-    Reader(
-        "published laws",
-        lambda path: read_published(path, "kPa"),
-        ((ROOT / "data/paper/table3_burgers.csv").read_bytes(),),
-    ),
-    Reader("published errors", read_errors, ((ROOT / "data/paper/table4_errors.csv").read_bytes(),)),
-    Reader(
-        "geometry in JSON",
-        lambda path: read_geometry(path, ["1"]),
-        (json.dumps(PAPER_GEOMETRY).encode(),),
-        ".json",
-    ),
+    Reader("geometry table", _geometry, (GEOMETRY.encode(),)),
+    Reader("published laws", read_published, _kept("data/paper/table3_burgers.csv")),
+    Reader("published errors", read_errors, _kept("data/paper/table4_errors.csv")),
+    Reader("geometry in JSON", _geometry, (json.dumps(PAPER_GEOMETRY).encode(),), ".json"),
     Reader("law", read_bond_law, (json.dumps(LAW).encode(), CHAIN), ".json"),
-    Reader(
-        "spectrum",
-        read_spectrum,
-        ((ROOT / "results/published/paper/diagnosis/law.json").read_bytes(),),
-        ".json",
-    ),
+    Reader("spectrum", read_spectrum, _kept("results/published/paper/diagnosis/law.json"), ".json"),
     Reader("rig", read_rig, (_written(lambda path: write_rig(path, Rig())),), ".json"),
-    Reader(
-        "diagnosis",
-        lambda path: read_diagnosis([path]),
-        (_diagnosis(),),
-        ".json",
-    ),
-    Reader(
-        "study",
-        _study,
-        tuple((ROOT / "config" / f"{name}.yaml").read_bytes() for name in ("smoke", "paper")),
-        ".yaml",
-    ),
+    Reader("diagnosis", lambda path: read_diagnosis([path]), (_diagnosis(),), ".json"),
+    Reader("study", _study, _kept("config/smoke.yaml", "config/paper.yaml"), ".yaml"),
 ]
 BINARIES = [
     Reader("own workbook", _understood, (_workbook(),), ".xlsx"),

@@ -28,11 +28,10 @@ def tried(number: int, first: int, folder: Path) -> pd.DataFrame:
     for seed in range(first, first + number):
         family, path, tests = draw(seed, folder)
         result, why = outcome(path, tests, "M1" if family == "two_mixes" else None)
-        rows.append(
-            (path.name, family, Laboratory(seed).language, path.suffix, result, why.replace(f"{folder}/", ""))
-        )
+        why = why.replace(f"{folder}/", "")
+        rows.append((path.name, family, Laboratory(seed).language, path.suffix, result, why))
         if why:
-            print(f"{result}: {rows[-1][0]}: {rows[-1][-1]}")
+            print(f"{result}: {path.name}: {why}")
     return pd.DataFrame(rows, columns=["file", "family", "language", "ending", "result", "sentence"])
 
 
@@ -48,10 +47,8 @@ def summary(files: pd.DataFrame) -> pd.DataFrame:
 def tried_mends(refused: pd.DataFrame) -> pd.DataFrame:
     """By what was wrong with a file: how many were read after one sentence, after several, and not."""
     read, once = refused["result"] == "read", refused["steps"] == 1
-    kinds = refused.assign(files=1, once=read & once, later=read & ~once, never=~read).groupby(
-        "slip", sort=False
-    )
-    counts = kinds[["files", "once", "later", "never"]].sum()
+    kinds = refused.assign(files=1, once=read & once, later=read & ~once, never=~read)
+    counts = kinds.groupby("slip", sort=False)[["files", "once", "later", "never"]].sum()
     counts.loc["all"] = counts.sum()
     return counts.reset_index()
 

@@ -5,27 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import product
 
-import numpy as np
-
-from layouts.laboratory import UNITS, Laboratory, Rows, Sheets
+from layouts.laboratory import Laboratory, Rows, Sheets
 
 
 def long(lab: Laboratory) -> Sheets:
     """A row for each test, with columns beside that say other things."""
     more = lab.chance(0.5)
-    rows: Rows = [
-        [lab.specimen, *(lab.name[k] for k in "tfep"), *(["Air voids (%)", "Operator"] if more else [])]
-    ]
-    for (s, t, f), _ in lab.tests.values.items():
-        rows.append([s, lab.t(t), f, *lab.both(s, t, f), *([5.2, "me"] if more else [])])
-    return {"Data": rows}
+    names, cells = (["Air voids (%)", "Operator"], [5.2, "me"]) if more else ([], [])
+    rows = [[s, lab.t(t), f, *lab.both(s, t, f), *cells] for s, t, f in lab.tests.values]
+    return {"Data": [[lab.specimen, *lab.names("tfep"), *names], *rows]}
 
 
 def specimens_over_pairs(lab: Laboratory) -> Sheets:
     """A specimen over its modulus and phase; temperature and frequency merged down from the first line."""
     names = lab.tests.specimens
-    first = [lab.name["t"], lab.name["f"], *(cell for s in names for cell in (s, None))]
-    second = [None, None, *[lab.name["e"], lab.name["p"]] * len(names)]
+    first = [*lab.names("tf"), *(cell for s in names for cell in (s, None))]
+    second = [None, None, *lab.names("ep") * len(names)]
     if lab.chance(0.5):
         first, second = [None, None, *first[2:]], [*first[:2], *second[2:]]
     merged = lab.chance(0.5)
@@ -37,16 +32,11 @@ def quantities_over_specimens(lab: Laboratory, kinds: int = 0) -> Sheets:
     """Modulus merged over a column for each specimen, then the phase; statistics behind each, if any."""
     names = [*lab.tests.specimens, *lab.statistics[:kinds]]
     blank = [None] * (len(names) - 1)
-    down = lab.chance(0.5)
-    head = [lab.name["t"], lab.name["f"]]
-    rows: Rows = [[*(head if down else [None, None]), lab.name["e"], *blank, lab.name["p"], *blank]]
-    rows.append([*([None, None] if down else head), *names, *names])
+    heads = [lab.names("tf"), [None, None]]
+    above, beside = heads if lab.chance(0.5) else heads[::-1]
+    rows: Rows = [[*above, lab.name["e"], *blank, lab.name["p"], *blank], [*beside, *names, *names]]
     for shown, t, f in lab.grid(lab.chance(0.5)):
-        cells = (
-            [*(lab.both(s, t, f)[w] for s in lab.tests.specimens), *lab.computed(w, t, f, kinds)]
-            for w in (0, 1)
-        )
-        rows.append([shown, f, *(cell for part in cells for cell in part)])
+        rows.append([shown, f, *lab.each(0, t, f, kinds), *lab.each(1, t, f, kinds)])
     return {"Results": rows}
 
 
@@ -58,7 +48,7 @@ def statistics_beside(lab: Laboratory) -> Sheets:
 def statistics_below(lab: Laboratory) -> Sheets:
     """Rows of a mean, a deviation and a CV below the specimens of each condition."""
     kinds = int(lab.random.integers(1, 4))
-    rows: Rows = [[*(lab.name[k] for k in "tf"), lab.specimen, *(lab.name[k] for k in "ep")]]
+    rows: Rows = [[*lab.names("tf"), lab.specimen, *lab.names("ep")]]
     for _, t, f in lab.grid():
         rows += [[lab.t(t), f, s, *lab.both(s, t, f)] for s in lab.tests.specimens]
         computed = zip(lab.computed(0, t, f, kinds), lab.computed(1, t, f, kinds), strict=True)
@@ -71,20 +61,16 @@ def numbered(lab: Laboratory) -> Sheets:
     numbers = range(1, len(lab.tests.specimens) + 1)
     link = lab.pick("{} {n} ({})", "{} {n} [{}]", "{}_{n} ({})")
     name = {k: [link.format(lab.bare[k], lab.units[k], n=n) for n in numbers] for k in "ep"}
-    rows: Rows = [[lab.name["t"], lab.name["f"], *name["e"], *name["p"]]]
-    for shown, t, f in lab.grid():
-        cells = [lab.both(s, t, f)[which] for which in (0, 1) for s in lab.tests.specimens]
-        rows.append([shown, f, *cells])
-    return {"Sheet1": rows}
+    rows = [[shown, f, *lab.each(0, t, f), *lab.each(1, t, f)] for shown, t, f in lab.grid()]
+    return {"Sheet1": [[*lab.names("tf"), *name["e"], *name["p"]], *rows]}
 
 
 def temperatures_across(lab: Laboratory) -> Sheets:
     """A column for each temperature."""
     at = [f"{lab.t(t)} {lab.units['t']}" for t in lab.temperatures]
-    rows: Rows = [[lab.specimen, lab.name["f"], *(f"{lab.name[k]} {one}" for k in "ep" for one in at)]]
-    for s, f in product(lab.tests.specimens, lab.frequencies):
-        rows.append([s, f, *(lab.both(s, t, f)[which] for which in (0, 1) for t in lab.temperatures)])
-    return {"Results": rows}
+    names = [lab.specimen, lab.name["f"], *(f"{name} {one}" for name in lab.names("ep") for one in at)]
+    rows = [[s, f, *lab.sweep(s, f)] for s, f in product(lab.tests.specimens, lab.frequencies)]
+    return {"Results": [names, *rows]}
 
 
 def matrix(lab: Laboratory, s: str, which: int) -> Rows:
@@ -105,29 +91,21 @@ def matrices_below(lab: Laboratory) -> Sheets:
 
 def matrices_by_sheet(lab: Laboratory) -> Sheets:
     """A sheet for each specimen with two matrices."""
-    return {
-        f"{s}".replace("/", "-"): [
-            [lab.name["e"]],
-            *matrix(lab, s, 0),
-            [],
-            [lab.name["p"]],
-            *matrix(lab, s, 1),
-        ]
-        for s in lab.tests.specimens
-    }
+    sheets: Sheets = {}
+    for s in lab.tests.specimens:
+        moduli, phases = ([[name], *matrix(lab, s, which)] for which, name in enumerate(lab.names("ep")))
+        sheets[lab.sheet(s)] = [*moduli, [], *phases]
+    return sheets
 
 
 def isothermal_columns(lab: Laboratory) -> Sheets:
     """A specimen's frequencies down, temperatures across under the modulus and again under the phase, in sheets."""
     at = [f"{lab.t(t)} {lab.units['t']}" for t in lab.temperatures]
     blank = [None] * (len(at) - 1)
-    out: Sheets = {}
-    for s in lab.tests.specimens:
-        rows: Rows = [[None, lab.name["e"], *blank, lab.name["p"], *blank], [lab.name["f"], *at, *at]]
-        for f in lab.frequencies:
-            rows.append([f, *(lab.both(s, t, f)[which] for which in (0, 1) for t in lab.temperatures)])
-        out[s.replace("/", "-")] = rows
-    return out
+    head: Rows = [[None, lab.name["e"], *blank, lab.name["p"], *blank], [lab.name["f"], *at, *at]]
+    return {
+        lab.sheet(s): [*head, *([f, *lab.sweep(s, f)] for f in lab.frequencies)] for s in lab.tests.specimens
+    }
 
 
 def sheet_of_each_specimen(lab: Laboratory) -> Sheets:
@@ -135,10 +113,9 @@ def sheet_of_each_specimen(lab: Laboratory) -> Sheets:
     sheets: Sheets = {}
     for s in lab.tests.specimens:
         rows = [[shown, f, *lab.both(s, t, f)] for shown, t, f in lab.grid(lab.chance(0.5))]
-        sheets[s.replace("/", "-")] = [[lab.name[k] for k in "tfep"], *rows]
+        sheets[lab.sheet(s)] = [lab.names("tfep"), *rows]
     if lab.chance(0.3):
-        rows = [[lab.t(t), f, *(lab.computed(w, t, f, 1)[0] for w in (0, 1))] for _, t, f in lab.grid()]
-        sheets[lab.statistics[0]] = [[lab.name[k] for k in "tfep"], *rows]
+        sheets[lab.statistics[0]] = [lab.names("tfep"), *lab.means()]
     return sheets
 
 
@@ -149,7 +126,7 @@ def sheet_of_each_temperature(lab: Laboratory) -> Sheets:
     for t in lab.temperatures:
         rows = [[s, f, *lab.both(s, t, f)] for s in lab.tests.specimens for f in lab.frequencies]
         named = f"{lab.t(t)} °{unit}".replace("-", minus)
-        sheets[named] = [[lab.specimen, *(lab.name[k] for k in "fep")], *rows]
+        sheets[named] = [[lab.specimen, *lab.names("fep")], *rows]
     return sheets
 
 
@@ -158,10 +135,10 @@ def parts(lab: Laboratory) -> Sheets:
     tangent = lab.chance(0.4)
     unit = lab.unit
     names = [lab.name["e"], lab.pick("tan δ", "tan(φ)")] if tangent else [f"E1 ({unit})", f"E2 ({unit})"]
-    rows: Rows = [[lab.specimen, lab.name["t"], lab.name["f"], *names]]
-    for (s, t, f), (e, p) in lab.tests.values.items():
-        star = UNITS[unit][0] * e * np.exp(1j * np.radians(p))
-        two = [abs(star), np.tan(np.radians(p))] if tangent else [star.real, star.imag]
+    rows: Rows = [[lab.specimen, *lab.names("tf"), *names]]
+    for s, t, f in lab.tests.values:
+        star = lab.star(s, t, f)
+        two = [abs(star), star.imag / star.real] if tangent else [star.real, star.imag]
         rows.append([s, lab.t(t), f, *(float(f"{x:.6g}") for x in two)])
     return {"DMA": rows}
 
@@ -187,16 +164,8 @@ def ampt(lab: Laboratory) -> Sheets:
 def utm(lab: Laboratory) -> Sheets:
     """The summary of a UTM: lines of the project, names, a line of units, a row for each test."""
     rows: Rows = [["Dynamic Modulus Test, AASHTO T 342"], ["Project:", "Own"], ["Operator:", "me"], []]
-    rows.append(
-        [
-            "Specimen ID",
-            "Target Temperature",
-            "Frequency",
-            "Dynamic Modulus",
-            "Phase Angle",
-            "Axial micro-strain",
-        ]
-    )
+    named = "Specimen ID|Target Temperature|Frequency|Dynamic Modulus|Phase Angle|Axial micro-strain"
+    rows.append(named.split("|"))
     rows.append([None, lab.units["t"], "Hz", lab.unit, "rad" if lab.radians else "degrees", "µε"])
     rows += [[s, lab.t(t), f, *lab.both(s, t, f), 97] for s, t, f in lab.tests.values]
     return {"Summary": rows}
@@ -205,19 +174,12 @@ def utm(lab: Laboratory) -> Sheets:
 def cooper(lab: Laboratory) -> Sheets:
     """Sections of a Cooper summary, one for each specimen, with both parts of the modulus beside it."""
     rows: Rows = [["Cooper Research Technology Ltd"], ["Complex modulus, EN 12697-26"], []]
-    units = lab.units
-    names = [
-        f"Test Temp. / {units['t']}",
-        "Frequency / Hz",
-        f"Complex Modulus / {lab.unit}",
-        f"Phase Lag / {units['p']}",
-    ]
-    names += [f"Storage Modulus / {lab.unit}", f"Loss Modulus / {lab.unit}"]
+    names = [f"Test Temp. / {lab.units['t']}", "Frequency / Hz", f"Complex Modulus / {lab.unit}"]
+    names += [f"Phase Lag / {lab.units['p']}", f"Storage Modulus / {lab.unit}", f"Loss Modulus / {lab.unit}"]
     for s in lab.tests.specimens:
         rows += [["Specimen Ref.", s], ["Date of test", "12/05/2023"], names]
         for _, t, f in lab.grid():
-            e, p = lab.tests.values[s, t, f]
-            star = UNITS[lab.unit][0] * e * np.exp(1j * np.radians(p))
+            star = lab.star(s, t, f)
             rows.append([lab.t(t), f, *lab.both(s, t, f), round(star.real, 2), round(star.imag, 2)])
         rows.append([])
     return {"Report": rows}
@@ -227,47 +189,28 @@ def controls(lab: Laboratory) -> Sheets:
     """The summary of Controls: set and actual values, the mean over specimens and its CoV in a table of their own."""
     rows: Rows = [["CONTROLS - Dynapave", None, None, "EN 12697-26 annex D"], ["Customer", "Own"], []]
     names = ["Sample Name", f"Set Temperature ({lab.units['t']})", f"Actual Temperature ({lab.units['t']})"]
-    names += [
-        "Set Frequency (Hz)",
-        "Actual Frequency (Hz)",
-        f"E* ({lab.unit})",
-        f"Phase Angle ({lab.units['p']})",
-        "No. cycles",
-    ]
-    rows.append(names)
-    for s, t, f in lab.tests.values:
-        rows.append([s, lab.t(t), lab.t(t), f, f, *lab.both(s, t, f), 10])
-    mean: Rows = [["Mean values"], [lab.name["t"], lab.name["f"], f"Mean E* ({lab.unit})", "CoV (%)"]]
-    mean += [
-        [lab.t(t), f, lab.computed(0, t, f, 1)[0], lab.computed(0, t, f, 3)[2]] for _, t, f in lab.grid()
-    ]
+    names += ["Set Frequency (Hz)", "Actual Frequency (Hz)", f"E* ({lab.unit})"]
+    rows.append([*names, f"Phase Angle ({lab.units['p']})", "No. cycles"])
+    rows += [[s, lab.t(t), lab.t(t), f, f, *lab.both(s, t, f), 10] for s, t, f in lab.tests.values]
+    mean: Rows = [["Mean values"], [*lab.names("tf"), f"Mean E* ({lab.unit})", "CoV (%)"]]
+    mean += [[lab.t(t), f, *lab.computed(0, t, f, 3)[::2]] for _, t, f in lab.grid()]
     return {"Test data": rows} | ({"Summary": mean} if lab.chance(0.5) else {})
 
 
 def two_mixes(lab: Laboratory) -> Sheets:
     """Two mixes in one table with equal numbers, of which M1 is to be read."""
     (name, rows), *_ = long(lab).items()
-    return {
-        name: [[lab.mix, *rows[0]], *(["M1", *row] for row in rows[1:]), *(["M2", *row] for row in rows[1:])]
-    }
+    return {name: [[lab.mix, *rows[0]], *([mix, *row] for mix in ("M1", "M2") for row in rows[1:])]}
 
 
 def quantities_below(lab: Laboratory) -> Sheets:
     """A column for each specimen; the phase below the modulus or on a sheet of its own; statistics behind."""
     kinds = int(lab.random.integers(0, 4))
-    head = [lab.name["t"], lab.name["f"], *lab.tests.specimens, *lab.statistics[:kinds]]
+    head = [*lab.names("tf"), *lab.tests.specimens, *lab.statistics[:kinds]]
     blocks: list[Rows] = []
-    for which, key in enumerate("ep"):
-        rows = [
-            [
-                shown,
-                f,
-                *(lab.both(s, t, f)[which] for s in lab.tests.specimens),
-                *lab.computed(which, t, f, kinds),
-            ]
-            for shown, t, f in lab.grid(merged=True)
-        ]
-        blocks.append([[lab.name[key]], head, *rows, []])
+    for which, name in enumerate(lab.names("ep")):
+        rows = [[shown, f, *lab.each(which, t, f, kinds)] for shown, t, f in lab.grid(merged=True)]
+        blocks.append([[name], head, *rows, []])
     return {"E": blocks[0], "P": blocks[1]} if lab.chance(0.5) else {"Results": [*blocks[0], *blocks[1]]}
 
 
@@ -279,8 +222,7 @@ def units_below(lab: Laboratory) -> Sheets:
         cells = [[shown, f, *lab.both(s, t, f)] for shown, t, f in lab.grid(merged=True)]
         rows += [[None if n else s, *row] for n, row in enumerate(cells)]
     if lab.chance(0.5) and lab.language in ("en", "fr", "de"):
-        means = [[lab.t(t), f, *(lab.computed(w, t, f, 1)[0] for w in (0, 1))] for _, t, f in lab.grid()]
-        rows += [[None if n else lab.statistics[0], *row] for n, row in enumerate(means)]
+        rows += [[None if n else lab.statistics[0], *row] for n, row in enumerate(lab.means())]
     return {"Data": rows}
 
 
@@ -289,9 +231,9 @@ def matrices_beside(lab: Laboratory) -> Sheets:
     sheets: Sheets = {}
     size = len(lab.frequencies) + 2
     for s in lab.tests.specimens:
-        both = [[[lab.name[key]], *matrix(lab, s, which)] for which, key in enumerate("ep")]
+        both = [[[name], *matrix(lab, s, which)] for which, name in enumerate(lab.names("ep"))]
         rows = zip(*both, strict=True)
-        sheets[s.replace("/", "-")] = [[*left, *[None] * (size - len(left)), *right] for left, right in rows]
+        sheets[lab.sheet(s)] = [[*left, *[None] * (size - len(left)), *right] for left, right in rows]
     return sheets
 
 
@@ -299,7 +241,7 @@ def sheet_of_each_frequency(lab: Laboratory) -> Sheets:
     """A sheet for each frequency, which a column says too."""
     return {
         f"{f:g} Hz": [
-            [lab.specimen, *(lab.name[key] for key in "tfep")],
+            [lab.specimen, *lab.names("tfep")],
             *([s, lab.t(t), f, *lab.both(s, t, f)] for s in lab.tests.specimens for t in lab.temperatures),
         ]
         for f in lab.frequencies
@@ -311,11 +253,9 @@ def specimens_beside(lab: Laboratory) -> Sheets:
     names = lab.tests.specimens
     rows: Rows = []
     for t in lab.temperatures:
-        rows += [
-            [f"{lab.bare['t']} {lab.t(t)} {lab.units['t']}"],
-            [None, *(c for s in names for c in (s, None))],
-        ]
-        rows.append([lab.name["f"], *[lab.name["e"], lab.name["p"]] * len(names)])
+        rows.append([f"{lab.bare['t']} {lab.t(t)} {lab.units['t']}"])
+        rows.append([None, *(c for s in names for c in (s, None))])
+        rows.append([lab.name["f"], *lab.names("ep") * len(names)])
         rows += [[f, *(c for s in names for c in lab.both(s, t, f))] for f in lab.frequencies]
         rows.append([])
     return {"Data": rows}

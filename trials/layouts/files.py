@@ -12,7 +12,7 @@ from xml.sax.saxutils import escape
 import openpyxl
 
 from layouts.families import FAMILIES, Family
-from layouts.laboratory import Laboratory, Sheets, Tests
+from layouts.laboratory import Laboratory, Rows, Sheets, Tests
 
 
 def draw(seed: int, folder: Path) -> tuple[str, Path, Tests]:
@@ -36,11 +36,8 @@ def sheets_of(lab: Laboratory, seed: int, families: Sequence[Family] = FAMILIES)
 
 def save(folder: Path, stem: str, sheets: Sheets, lab: Laboratory) -> Path:
     """Write sheets as a file of one of the formats that hold them."""
-    ending = (
-        lab.pick("xlsx", "xlsx", "xlsx", "ods", "csv")
-        if len(sheets) == 1
-        else lab.pick("xlsx", "xlsx", "ods")
-    )
+    endings = ["xlsx", "xlsx", "xlsx", "ods", "csv"] if len(sheets) == 1 else ["xlsx", "xlsx", "ods"]
+    ending = lab.pick(endings)
     path = folder / f"{stem}.{ending}"
     {"xlsx": save_xlsx, "ods": save_ods, "csv": save_csv}[ending](path, sheets, lab)
     return path
@@ -73,9 +70,8 @@ def save_csv(path: Path, sheets: Sheets, lab: Laboratory) -> None:
     except UnicodeEncodeError:
         encoding = "utf-8-sig"
     with path.open("w", newline="", encoding=encoding) as file:
-        csv.writer(file, delimiter="," if english else ";").writerows(
-            [cell(value) for value in row] for row in rows
-        )
+        writer = csv.writer(file, delimiter="," if english else ";")
+        writer.writerows([cell(value) for value in row] for row in rows)
 
 
 def save_ods(path: Path, sheets: Sheets, lab: Laboratory) -> None:
@@ -88,20 +84,17 @@ def save_ods(path: Path, sheets: Sheets, lab: Laboratory) -> None:
         kind = f'float" office:value="{value}' if number else "string"
         return f'<table:table-cell office:value-type="{kind}"><text:p>{escape(str(value))}</text:p></table:table-cell>'
 
-    names = "".join(
-        f' xmlns:{n}="urn:oasis:names:tc:opendocument:xmlns:{n}:1.0"' for n in ("office", "table", "text")
-    )
-    tables = "".join(
-        f'<table:table table:name="{escape(name)}">'
-        + "".join(f"<table:table-row>{''.join(map(cell, row or [None]))}</table:table-row>" for row in rows)
-        + "</table:table>"
-        for name, rows in sheets.items()
-    )
+    def table(name: str, rows: Rows) -> str:
+        cells = ("".join(map(cell, row or [None])) for row in rows)
+        lines = "".join(f"<table:table-row>{line}</table:table-row>" for line in cells)
+        return f'<table:table table:name="{escape(name)}">{lines}</table:table>'
+
+    urn = "urn:oasis:names:tc:opendocument:xmlns"
+    names = "".join(f' xmlns:{n}="{urn}:{n}:1.0"' for n in ("office", "table", "text"))
+    tables = "".join(table(name, rows) for name, rows in sheets.items())
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
         archive.writestr("META-INF/manifest.xml", "<manifest/>")
         body = f"<office:body><office:spreadsheet>{tables}</office:spreadsheet></office:body>"
-        archive.writestr(
-            "content.xml",
-            f'<office:document-content{names} office:version="1.2">{body}</office:document-content>',
-        )
+        whole = f'<office:document-content{names} office:version="1.2">{body}</office:document-content>'
+        archive.writestr("content.xml", whole)

@@ -113,6 +113,32 @@ class Laboratory:
         e, p = self.tests.values[s, t, f]
         return [self.e(e), self.p(p)]
 
+    def star(self, s: str, t: float, f: float) -> complex:
+        """E* of a test in the unit of the laboratory."""
+        e, p = self.tests.values[s, t, f]
+        return complex(UNITS[self.unit][0] * e * np.exp(1j * np.radians(p)))
+
+    def names(self, keys: str) -> list[str]:
+        """Those of several columns."""
+        return [self.name[key] for key in keys]
+
+    def sheet(self, s: str) -> str:
+        """The name of the sheet of a specimen."""
+        return s.replace("/", "-")
+
+    def each(self, which: int, t: float, f: float, kinds: int = 0) -> list[float]:
+        """Moduli (0) or phases (1) of all specimens, and so many kinds of what is computed of them."""
+        values = [self.both(s, t, f)[which] for s in self.tests.specimens]
+        return [*values, *self.computed(which, t, f, kinds)]
+
+    def sweep(self, s: str, f: float) -> list[float]:
+        """Moduli of a specimen at all temperatures, then phases."""
+        return [self.both(s, t, f)[which] for which in (0, 1) for t in self.temperatures]
+
+    def means(self) -> Rows:
+        """A row of each condition."""
+        return [[self.t(t), f, *(self.computed(w, t, f, 1)[0] for w in (0, 1))] for _, t, f in self.grid()]
+
     def grid(self, merged: bool = False) -> list[tuple[Any, float, float]]:
         """Temperature as it is shown, temperature and frequency of each condition; merged: shown once."""
         return [
@@ -126,8 +152,5 @@ class Laboratory:
         values = [self.both(s, t, f)[which] for s in self.tests.specimens]
         mean, deviation = float(np.mean(values)), float(np.std(values, ddof=1))
         show = (self.e(mean / UNITS[self.unit][0]), self.p(np.degrees(mean) if self.radians else mean))[which]
-        return [
-            show,
-            round(deviation, 4 if self.radians or UNITS[self.unit][1] else 1),
-            round(100 * deviation / mean, 1),
-        ][:kinds]
+        digits = 4 if self.radians or UNITS[self.unit][1] else 1
+        return [show, round(deviation, digits), round(100 * deviation / mean, 1)][:kinds]

@@ -9,6 +9,7 @@ from typing import Any
 
 from layouts.laboratory import Laboratory, Sheets
 
+SAID = r'--column (\S+?)="([^"]*)"((?: or --column \S+="[^"]*")*)'
 KEYS = {"E": "e", "phase": "p", "temperature": "t", "frequency": "f"}
 
 
@@ -36,24 +37,18 @@ class User:
 
     def change(self, change: Callable[[Any], Any]) -> None:
         """Put another in place of each cell."""
-        self.sheets = {
-            name: [[change(cell) for cell in row] for row in rows] for name, rows in self.sheets.items()
-        }
+        self.sheets = changed(self.sheets, change)
 
     def restore(self, wrong: str) -> None:
         """Write the right number into the cells that hold this text."""
         for name, rows in self.sheets.items():
             for row, right in zip(rows, self.right.get(name, []), strict=False):
-                row[:] = [
-                    b if str(a) == wrong else a
-                    for a, b in zip(row, [*right, *row[len(right) :]], strict=False)
-                ]
+                whole = [*right, *row[len(right) :]]
+                row[:] = [b if str(a) == wrong else a for a, b in zip(row, whole, strict=False)]
 
     def say(self, sentence: str) -> None:
         """Say each `--column`, with the user's own name and unit for NAME, or the one of several that is right."""
-        for key, one, more in re.findall(
-            r'--column (\S+?)="([^"]*)"((?: or --column \S+="[^"]*")*)', sentence
-        ):
+        for key, one, more in re.findall(SAID, sentence):
             stem = key.rpartition("_")[0]
             own = self.lab.bare.get(KEYS.get(stem, ""), self.lab.specimen)
             offered = [one, *re.findall(r'="([^"]*)"', more)]
@@ -76,10 +71,9 @@ def _other_unit(user: User, found: re.Match[str]) -> None:
 
 def _grouped(user: User, found: re.Match[str]) -> None:
     """All numbers that are texts, not the first alone."""
-    for rows in user.sheets.values():
-        for text in {
-            cell for row in rows for cell in row if isinstance(cell, str) and re.fullmatch(r"\d+,\d{3}", cell)
-        }:
+    cells = {cell for rows in user.sheets.values() for row in rows for cell in row if isinstance(cell, str)}
+    for text in cells:
+        if re.fullmatch(r"\d+,\d{3}", text):
             user.restore(text)
 
 
@@ -101,10 +95,9 @@ def _first_alone(user: User, found: re.Match[str]) -> None:
 
 def _with_specimens(user: User, found: re.Match[str]) -> None:
     names = [s for s, _, _ in user.lab.tests.values]
-    user.sheets = {
-        name: [["specimen", *rows[0]], *([s, *row] for s, row in zip(names, rows[1:], strict=False))]
-        for name, rows in user.sheets.items()
-    }
+    for name, rows in user.sheets.items():
+        named = [[s, *row] for s, row in zip(names, rows[1:], strict=False)]
+        user.sheets[name] = [["specimen", *rows[0]], *named]
 
 
 def _line_above(user: User, found: re.Match[str]) -> bool:
