@@ -28,10 +28,14 @@ def campaign(specimens=3):
     return table
 
 
-def bitumen(celsius=(-10.0, 0.0, 10.0, 20.0, 30.0), said=None):
+USUAL = HuetSayegh(80e6, 32e9, k=0.22, h=0.6, delta=2.3, tau=0.3, shift=WLF(18.0, 140.0, 15.0))
+SOFT_WHERE_WARM = HuetSayegh(30e6, 28e9, k=0.22, h=0.62, delta=2.0, tau=0.1, shift=WLF(24.0, 110.0, 20.0))
+AT_THREE = (4.0, 20.0, 40.0)
+
+
+def bitumen(celsius=(-10.0, 0.0, 10.0, 20.0, 30.0), said=None, law=USUAL):
     """A law of Huet and Sayegh, three specimens with scatter; `said`: temperatures as the table has them."""
     rng = np.random.default_rng(4)
-    law = HuetSayegh(80e6, 32e9, k=0.22, h=0.6, delta=2.3, tau=0.3, shift=WLF(18.0, 140.0, 15.0))
     rows = [(name, t, f) for name in "ABC" for t in celsius for f in (1.0, 3.0, 10.0, 25.0)]
     table = pd.DataFrame(rows, columns=["specimen", "temperature_C", "frequency_Hz"])
     modulus = law.complex_modulus(
@@ -59,6 +63,7 @@ def at(celsius, column, of, table=None):
         (at(10.0, "E_MPa", lambda x: x / 6.895), "at 10 degC |E*| is about 0.145 times"),
         (at(30.0, "E_MPa", lambda x: x / 6.895), "degC |E*| is about 0.145 times"),
         (at(0.0, "E_MPa", lambda x: x / 6.895), "as it would be in ksi"),
+        (at(40.0, "E_MPa", lambda x: x / 6.895, bitumen(AT_THREE)), "as it would be in ksi"),
         (at(20.0, "E_MPa", lambda x: x * 145.04), "at 20 degC |E*| is about 145 times"),
         (bitumen(said={10.0: 50.0}), "was 50 degF, that is 10 degC, meant?"),
         (bitumen(said={0.0: 32.0}), "was 32 degF, that is 0 degC, meant?"),
@@ -111,6 +116,11 @@ def test_a_value_with_a_digit_too_many_is_held_against_its_sweep(name, factor):
 )
 def test_a_mix_without_a_slip_has_none(celsius):
     assert not list(slips(bitumen(celsius)))
+
+
+def test_a_mix_that_softens_fast_is_not_in_another_unit_there():
+    """From 11 GPa at 20 degC to 400 MPa at 40 degC, as its slopes over the frequency ask for."""
+    assert not list(slips(bitumen(AT_THREE, law=SOFT_WHERE_WARM)))
 
 
 def test_a_right_table_has_none():

@@ -42,7 +42,11 @@ TURNED = 10.0  # deg, within which 90 less a phase is what |E*| requires
 SMOOTH = 0.15  # of ln |E*|
 SWEEP = "specimen", "temperature_C"
 OFF_SWEEP = 0.3  # of the logarithm, by which a value without its digit too many may leave its sweep
-ROUGH = 0.8  # of ln |E*| over the isotherms, that no mix leaves of a parabola
+# Of ln |E*| over the isotherms, that few mixes leave of a parabola, or of a line where these are few.
+ROUGH = 0.8
+# The same over kelvins that are as long as |E*| is steep over ln f there, which no unit changes: 125 drawn or measured
+# tables of three isotherms leave 0.2 at most, and 0.3 or more with one isotherm in ksi.
+STEEP = 0.3
 COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
 
 
@@ -206,12 +210,14 @@ def _units_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
     level = logarithm.mean().to_numpy()
     degree = 2 if temperature.size > LEAST + 1 else 1
 
-    def roughness(values: NDArray[np.float64]) -> float:
-        """Range of a level of ln |E*| (t,) about its parabola or line over the isotherms."""
-        return float(np.ptp(values - np.polyval(np.polyfit(temperature, values, degree), temperature)))
+    def roughness(values: NDArray[np.float64], along: NDArray[np.float64]) -> float:
+        """Range of a level of ln |E*| (t,) about its parabola or line `along` (t,)."""
+        return float(np.ptp(values - np.polyval(np.polyfit(along, values, degree), along)))
 
+    slope = np.maximum(np.polyfit(np.log(logarithm.index), logarithm, 1)[0], LEAST_SLOPE)
+    steep = np.cumsum(np.diff(temperature, prepend=temperature[0]) * (slope + np.roll(slope, 1)))
     tried = [
-        (roughness(level - np.log(factor) * (temperature == t)), float(t), unit)
+        (roughness(level - np.log(factor) * (temperature == t), temperature), float(t), unit)
         for t in temperature
         for unit, factor in FACTORS.items()
         if unit != "kgf/cm2"  # ten times: a temperature in degF moves |E*| as far
@@ -221,7 +227,9 @@ def _units_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
         return
     least = min(tried)[0]
     likely = [one for one in tried if one[0] < max(2.0 * least, SMOOTH)]
-    if roughness(level) < max(4.0 * least, ROUGH) or len({unit for _, _, unit in likely}) > 1:
+    if len({unit for _, _, unit in likely}) > 1 or roughness(level, steep) < STEEP:
+        return
+    if roughness(level, temperature) < max(4.0 * least, ROUGH):
         return
     at = " or ".join(f"{t:g}" for _, t, _ in likely)
     unit = likely[0][2]
