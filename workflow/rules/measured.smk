@@ -97,7 +97,7 @@ rule reported_intervals:
         ENVIRONMENT
     params:
         program=f"{TRIAL} extrapolation",
-        size="10 100 --seed 20281128",
+        size="10 40 100 --seed 20281128",
     message:
         "Diagnose campaigns of three temperatures, and hold what is reported against their mixes"
     shell:
