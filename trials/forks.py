@@ -17,17 +17,8 @@ from importlib import import_module
 from pathlib import Path
 
 _FORKS = multiprocessing.get_context("forkserver")
-_FORKS.set_forkserver_preload(
-    [
-        "snakemake.cli",
-        "snakemake.report.html_reporter",
-        "pandas",
-        "scipy.optimize",
-        "h5py",
-        "jsonschema",
-        "click",
-    ]
-)
+_LOADED = "snakemake.cli snakemake.report.html_reporter pandas scipy.optimize h5py jsonschema click"
+_FORKS.set_forkserver_preload(_LOADED.split())
 LONGEST = 1800.0  # s; a run that hangs is then killed, ends as -9, and its test shows what it said
 
 

@@ -44,21 +44,9 @@ class Copy:
 
     def failed(self, tests: str, mark: str) -> str:
         """What pytest says of the tests in a file that are marked so; empty if they pass, or if there are none."""
-        command = [
-            sys.executable,
-            "-m",
-            "pytest",
-            "-x",
-            "-p",
-            "no:cacheprovider",
-            "-m",
-            mark,
-            f"tests/{tests}",
-        ]
-        environment = os.environ | {"PYTHONPATH": str(self.folder / "src")}
-        done = subprocess.run(
-            command, cwd=self.folder, env=environment, capture_output=True, text=True, preexec_fn=_limit
-        )
+        command = [sys.executable, *"-m pytest -x -p no:cacheprovider -m".split(), mark, f"tests/{tests}"]
+        where = {"cwd": self.folder, "env": os.environ | {"PYTHONPATH": str(self.folder / "src")}}
+        done = subprocess.run(command, **where, capture_output=True, text=True, preexec_fn=_limit)
         if done.returncode == -signal.SIGXCPU:
             return f"tests/{tests} does not end"
         if done.returncode in (pytest.ExitCode.OK, pytest.ExitCode.NO_TESTS_COLLECTED):

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import yaml
 from forks import forked
@@ -30,6 +31,8 @@ class Plan:
 class Workspace:
     """A folder of its own in which the repository's Snakefile runs."""
 
+    configuration = "study.yaml"
+
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         for name in ("config", "data", "profiles"):
@@ -51,21 +54,22 @@ class Workspace:
 
     def command(self, *arguments: str) -> list[str]:
         snakemake = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
-        return [*snakemake, *arguments, "--configfile", "study.yaml"]
+        return [*snakemake, *arguments, "--configfile", self.configuration]
 
     def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         """What `python -m snakemake` does and says, in a fork; `start` really starts it."""
         return forked("snakemake.cli:main", self.command(*arguments)[3:], self.folder, self.environment)
 
-    def start(self, *arguments: str) -> subprocess.Popen[str]:
-        return subprocess.Popen(
-            self.command(*arguments),
-            cwd=self.folder,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.PIPE,
-            text=True,
-            env=self.environment,
-        )
+    def start(self, *arguments: str, **options: Any) -> subprocess.Popen[str]:
+        """A run in a process of its own, with options of Popen; it says nothing but errors."""
+        usual = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "env": self.environment}
+        return subprocess.Popen(self.command(*arguments), cwd=self.folder, text=True, **usual | options)
+
+    def alone(self, *arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:
+        """The same, to its end."""
+        with self.start(*arguments, **options) as process:
+            out, error = process.communicate()
+        return subprocess.CompletedProcess(process.args, process.returncode, out or "", error or "")
 
     def planned(self, *arguments: str) -> dict[str, int]:
         """Number of jobs of each rule that a dry run announces."""

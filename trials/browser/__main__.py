@@ -9,21 +9,20 @@ from __future__ import annotations
 
 import argparse
 import sys
-from base64 import b64decode
 from pathlib import Path
 
 from browser.chromium import Page, find
 from browser.look import WIDTHS, look
 from browser.use import SCHEMES, printed, show, use
 
+BELOW = "document.querySelector('nav, .details').getBoundingClientRect().top + scrollY"  # the picture ends
+
 
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("report", type=Path)
     parser.add_argument("--picture", type=Path, help="PNG file for a picture of the first page")
-    parser.add_argument(
-        "--pictures", type=Path, help="folder for pictures at both widths, light and dark, and for the print"
-    )
+    parser.add_argument("--pictures", type=Path, help="folder for the page in all looks, and for its print")
     given = parser.parse_args()
     program = find()
     if program is None:
@@ -47,13 +46,10 @@ def picture(program: str, report: Path, output: Path) -> None:
     with Page(program) as page:
         page.open(report.resolve().as_uri(), WIDTHS[0])
         page.evaluate("document.fonts.ready.then(() => true)")
-        page.evaluate("Promise.all([...document.images].map(image => image.decode().catch(() => null)))")
-        height = page.evaluate(
-            "document.querySelector('nav, .details').getBoundingClientRect().top + scrollY"
-        )
+        page.decode_images()
+        height = page.evaluate(BELOW)
         clip = {"x": 0, "y": 0, "width": WIDTHS[0], "height": height, "scale": 1}
-        shot = page.call("Page.captureScreenshot", format="png", clip=clip, captureBeyondViewport=True)
-        output.write_bytes(b64decode(shot["data"]))
+        output.write_bytes(page.picture(clip=clip))
 
 
 def pictures(program: str, report: Path, folder: Path) -> None:
@@ -63,11 +59,8 @@ def pictures(program: str, report: Path, folder: Path) -> None:
         for width in WIDTHS:
             for scheme in SCHEMES:
                 show(page, report, width, scheme)
-                page.evaluate(
-                    "Promise.all([...document.images].map(image => image.decode().catch(() => null)))"
-                )
-                shot = page.call("Page.captureScreenshot", format="png", captureBeyondViewport=True)
-                (folder / f"{report.stem}-{width}-{scheme}.png").write_bytes(b64decode(shot["data"]))
+                page.decode_images()
+                (folder / f"{report.stem}-{width}-{scheme}.png").write_bytes(page.picture())
         (folder / f"{report.stem}.pdf").write_bytes(printed(page, report))
 
 

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import tempfile
 import time
+from base64 import b64decode
 from typing import Any
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
@@ -93,14 +94,12 @@ class Page:
             self.events.append(answer)
 
     def open(self, address: str, width: int, height: int = 900) -> None:
-        self.call(
-            "Emulation.setDeviceMetricsOverride",
-            width=width,
-            height=height,
-            deviceScaleFactor=1,
-            mobile=width < 600,
-        )
+        self.resize(width, height)
         self.load("Page.navigate", url=address)
+
+    def resize(self, width: int, height: int = 900) -> None:
+        size = {"width": width, "height": height}
+        self.call("Emulation.setDeviceMetricsOverride", deviceScaleFactor=1, mobile=width < 600, **size)
 
     def load(self, method: str, **parameters: Any) -> None:
         """What loads a page, done whole: until then the one before answers."""
@@ -109,13 +108,21 @@ class Page:
         while not any(event.get("method") == "Page.loadEventFired" for event in self.events[before:]):
             self.events.append(self._read())
 
+    def picture(self, **part: Any) -> bytes:
+        """PNG of the whole page, or of a part."""
+        shot = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=True, **part)
+        return b64decode(shot["data"])
+
+    def decode_images(self) -> None:
+        """Wait until all are there, or known to be broken."""
+        self.evaluate("Promise.all([...document.images].map(image => image.decode().catch(() => null)))")
+
     def press(self, key: str, code: int) -> None:
         """A key down and up, where the focus is."""
         typed = {"text": "\r"} if key == "Enter" else {}
         for kind in ("keyDown", "keyUp"):
-            self.call(
-                "Input.dispatchKeyEvent", type=kind, key=key, code=key, windowsVirtualKeyCode=code, **typed
-            )
+            pressed = {"type": kind, "key": key, "code": key, "windowsVirtualKeyCode": code}
+            self.call("Input.dispatchKeyEvent", **pressed, **typed)
 
     def evaluate(self, script: str) -> Any:
         """Value of a JavaScript expression, which may be a promise."""

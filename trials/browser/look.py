@@ -52,9 +52,8 @@ def look(page: Page, path: Path, width: int) -> list[str]:
     found = _images(page)
     if (over := page.evaluate(WIDE) - width) > 1:
         found.append(f"{over:g} px wider than the window")
-    found += [
-        f"small letters: {text!r}" for text in page.evaluate(FONTS.replace("LEAST", str(LEAST_FONT)))[:3]
-    ]
+    small = page.evaluate(FONTS.replace("LEAST", str(LEAST_FONT)))
+    found += [f"small letters: {text!r}" for text in small[:3]]
     found += _links(page, path)
     page.evaluate("new Promise(done => setTimeout(done, 100))")  # what comes late to the console
     return [f"{path.name} at {width} px: {one}" for one in found + told(page)]

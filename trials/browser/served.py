@@ -6,6 +6,7 @@ import time
 from pathlib import Path
 
 from browser.chromium import Page
+from browser.use import set_scheme
 
 SECONDS = 900.0  # of a machine with other work
 
@@ -30,11 +31,8 @@ def drop(page: Page, *paths: Path, field: str = "#files") -> None:
 
 def sized(page: Page, width: int, dark: bool) -> None:
     """A window of this width, in the light or in the dark."""
-    page.call(
-        "Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1, mobile=width < 600
-    )
-    scheme = [{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}]
-    page.call("Emulation.setEmulatedMedia", features=scheme)
+    page.resize(width)
+    set_scheme(page, "dark" if dark else "light")
 
 
 def connect(page: Page) -> None:

@@ -99,10 +99,8 @@ def use(page: Page, path: Path, width: int) -> list[str]:
         paper = page.evaluate(PAPER)
         if (paper < 128) != (scheme == "dark"):
             found.append(f"the page is not {scheme} where the reader asks for it")
-        found += [
-            f"{scheme}: contrast {ratio:.1f} of {text!r}"
-            for text, ratio in page.evaluate(CONTRAST.replace("LEAST", str(LEAST_CONTRAST)))[:3]
-        ]
+        faint = page.evaluate(CONTRAST.replace("LEAST", str(LEAST_CONTRAST)))
+        found += [f"{scheme}: contrast {ratio:.1f} of {text!r}" for text, ratio in faint[:3]]
     found += page.evaluate(NAMELESS)[:3] + _tables(page) + _charts(page)
     pages = len(re.findall(rb"/Type\s*/Page\b", printed(page, path)))
     if pages > MOST_PAGES:
@@ -112,17 +110,22 @@ def use(page: Page, path: Path, width: int) -> list[str]:
 
 def show(page: Page, path: Path, width: int, scheme: str) -> None:
     """The page with all its parts open, light or dark."""
-    page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
+    set_scheme(page, scheme)
     page.events.clear()
     page.open(path.resolve().as_uri(), width)
     page.evaluate(OPEN_ALL)
+
+
+def set_scheme(page: Page, scheme: str) -> None:
+    """As a reader asks for it."""
+    page.call("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": scheme}])
 
 
 def printed(page: Page, path: Path) -> bytes:
     """PDF of the page as a reader prints it, who has opened nothing."""
     page.events.clear()
     page.open(path.resolve().as_uri(), 1280)
-    page.evaluate("Promise.all([...document.images].map(image => image.decode().catch(() => null)))")
+    page.decode_images()
     return b64decode(page.call("Page.printToPDF", preferCSSPageSize=True, printBackground=False)["data"])
 
 

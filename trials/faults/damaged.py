@@ -35,27 +35,17 @@ def other_kind(path: Path) -> None:
     shutil.copy(path.parents[len(path.parts) - path.parts.index("smoke") - 2] / MODEL, path)
 
 
-def edited(name: str, said: str) -> Fault:
-    """One bit of a finished study, which is then run as a whole: what the failed run leaves missing is made too."""
+def changed(name: str, said: str, word: str) -> Fault:
+    """One bit of a finished study edited or decayed; it is then run as a whole, so that what is missing is made too."""
 
     def disturb(study: Study) -> Run:
-        flipped(study.results / name)
+        {"edited": flipped, "decayed": _decay}[word](study.results / name)
         return study.finish()
 
-    return Fault(f"{name} of a finished study edited", disturb, said, "")
+    return Fault(f"{name} of a finished study {word}", disturb, said, "")
 
 
-def decayed(name: str, said: str) -> Fault:
-    """One bit of a finished study of which nothing is to be made."""
-
-    def disturb(study: Study) -> Run:
-        _decay(study.results / name, flipped)
-        return study.finish()
-
-    return Fault(f"{name} of a finished study decayed", disturb, said, "")
-
-
-def _decay(path: Path, how: Callable[[Path], None]) -> None:
+def _decay(path: Path, how: Callable[[Path], None] = flipped) -> None:
     """As damage to a disk leaves it: the times are those of before."""
     times = path.stat()
     how(path)

@@ -47,12 +47,12 @@ def mounted(folder: Path, options: str) -> Iterator[None]:
 
 def no_larger_files(study: Study) -> Run:
     (study.results / DEPOSIT).unlink()
-    return study.under(smallest_files(20_000))
+    return study.finish_alone(preexec_fn=smallest_files(20_000))
 
 
 def little_memory(study: Study) -> Run:
     (study.results / DEPOSIT).unlink()
-    return study.under(least_memory(400 * 2**20))  # Snakemake itself takes 320
+    return study.finish_alone(preexec_fn=least_memory(400 * 2**20))  # Snakemake itself takes 320
 
 
 def output_is_a_folder(study: Study) -> Run:

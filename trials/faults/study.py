@@ -11,6 +11,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 from workspace import Workspace
 
@@ -44,27 +45,14 @@ class Study(Workspace):
     def results(self) -> Path:
         return self.folder / RESULTS
 
-    def under(self, limit: Callable[[], None], *arguments: str) -> Run:
-        """A run whose processes have a limit (of `resource`)."""
-        return subprocess.run(
-            self.command("--cores", "2", *arguments, *self.targets),
-            cwd=self.folder,
-            capture_output=True,
-            text=True,
-            env=self.environment,
-            preexec_fn=limit,
-        )
+    def finish_alone(self, **options: Any) -> Run:
+        """The same in a process of its own, with options of Popen."""
+        return self.alone("--cores", "2", *self.targets, stdout=subprocess.PIPE, **options)
 
     def watched(self, look: Callable[[dict[str, int]], None], *arguments: str) -> Run:
         """A run; `look` is shown the processes of its jobs again and again, as `jobs` gives them."""
         with tempfile.TemporaryFile("w+") as said:
-            process = subprocess.Popen(
-                self.command("--logger", "steps", "--cores", "2", *arguments, *self.targets),
-                cwd=self.folder,
-                env=self.environment,
-                stdout=subprocess.DEVNULL,
-                stderr=said,
-            )
+            process = self.start("--logger", "steps", "--cores", "2", *arguments, *self.targets, stderr=said)
             try:
                 while process.poll() is None:
                     look(self.jobs())

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -89,14 +88,7 @@ def with_environment(output: str, name: str, value: Callable[[Study], str]) -> C
 
     def disturb(study: Study) -> Run:
         (study.results / output).unlink()
-        return subprocess.run(
-            study.command("--cores", "2", *study.targets),
-            cwd=study.folder,
-            capture_output=True,
-            text=True,
-            env=study.environment | {name: value(study)},
-            errors="replace",
-        )
+        return study.finish_alone(env=study.environment | {name: value(study)}, errors="replace")
 
     return disturb
 

@@ -4,33 +4,15 @@ from __future__ import annotations
 
 import signal
 
-from faults.damaged import cut, damaged, decayed, edited, emptied, flipped, other_kind, without_its_last_line
+from faults import storage, surroundings
+from faults.damaged import changed, cut, damaged, emptied, flipped, other_kind, without_its_last_line
 from faults.ended import half_written, signalled, two_at_once, workflow_signalled
 from faults.fault import ALL, CORE, DEPOSIT, DEPOSIT_LOG, MODEL, READ, SET_ASIDE, TEST, Fault
-from faults.storage import (
-    full_disk,
-    little_memory,
-    no_larger_files,
-    output_is_a_folder,
-    read_only,
-    results_is_a_file,
-)
-from faults.surroundings import (
-    CACHE,
-    clock_ahead,
-    clock_set_back,
-    configuration_in_half,
-    damaged_cache,
-    no_cache,
-    records_damaged,
-    records_lost,
-    stamps_lost,
-    table_gone,
-    table_in_half,
-    with_environment,
-)
+from faults.study import RESULTS
+from faults.surroundings import CACHE, damaged_cache, no_cache, with_environment
 
-DECAYED = ("simulations.csv", "diagnosis/diagnosis.json", "figures/fig09.png", "pages/samples.html", ALL)
+SAMPLES = "pages/samples.html"
+DECAYED = ("simulations.csv", "diagnosis/diagnosis.json", "figures/fig09.png", SAMPLES, ALL)
 
 
 def standing() -> dict[str, list[Fault]]:
@@ -58,28 +40,28 @@ def standing() -> dict[str, list[Fault]]:
                 for name in READ if not name.endswith(".h5")
                 for how in (cut, emptied, flipped, without_its_last_line)
             ),
-            *(edited(name, SET_ASIDE) for name in READ),
-            *(decayed(name, SET_ASIDE) for name in DECAYED),
+            *(changed(name, SET_ASIDE, "edited") for name in READ),
+            *(changed(name, SET_ASIDE, "decayed") for name in DECAYED),
         ],
         "no room, no right, no memory": [
-            Fault("disk full", full_disk, "error: .*s1.h5: no space left on device; free some space", DEPOSIT),
-            Fault("results read-only", read_only, "error: results/smoke/deposits: cannot be written to", DEPOSIT),
-            Fault("file size limited", no_larger_files, "error: .*file too large; raise the limit", DEPOSIT),
-            Fault("memory limited", little_memory, "error: .*memory", DEPOSIT),
-            Fault("folder in place of a table", output_is_a_folder, "error: .*samples.csv", "pages/samples.html"),
-            Fault("file in place of the results", results_is_a_file, "error: .*results/smoke"),
+            Fault("disk full", storage.full_disk, "error: .*s1.h5: no space left on device; free some space", DEPOSIT),
+            Fault("results read-only", storage.read_only, rf"error: {RESULTS}/deposits: cannot be written to", DEPOSIT),
+            Fault("file size limited", storage.no_larger_files, "error: .*file too large; raise the limit", DEPOSIT),
+            Fault("memory limited", storage.little_memory, "error: .*memory", DEPOSIT),
+            Fault("folder in place of a table", storage.output_is_a_folder, "error: .*samples.csv", SAMPLES),
+            Fault("file in place of the results", storage.results_is_a_file, "error: .*results/smoke"),
         ],
         "clocks and records": [
-            Fault("clock set back by a day", clock_set_back, None, "simulations.csv"),
-            Fault("input dated tomorrow", clock_ahead, None, "specimens/s1.h5"),
-            Fault("records of Snakemake lost", records_lost, None, TEST),
-            Fault("records of Snakemake damaged", records_damaged, None, TEST),
-            Fault("stamps of the code lost", stamps_lost, None, TEST),
+            Fault("clock set back by a day", surroundings.clock_set_back, None, "simulations.csv"),
+            Fault("input dated tomorrow", surroundings.clock_ahead, None, "specimens/s1.h5"),
+            Fault("records of Snakemake lost", surroundings.records_lost, None, TEST),
+            Fault("records of Snakemake damaged", surroundings.records_damaged, None, TEST),
+            Fault("stamps of the code lost", surroundings.stamps_lost, None, TEST),
         ],
         "inputs and environment": [
-            Fault("input table gone", table_gone, "error: .*smoke_counts.csv"),
-            Fault("input table cut", table_in_half, "error: .*table3_burgers.csv", TEST),
-            Fault("configuration cut", configuration_in_half, "error: .*study.yaml"),
+            Fault("input table gone", surroundings.table_gone, "error: .*smoke_counts.csv"),
+            Fault("input table cut", surroundings.table_in_half, "error: .*table3_burgers.csv", TEST),
+            Fault("configuration cut", surroundings.configuration_in_half, "error: .*study.yaml"),
             Fault("compiled core damaged", with_environment(MODEL, CACHE, damaged_cache("*.nb?")), CORE, MODEL),
             Fault("compiled kernel damaged", with_environment(TEST, CACHE, damaged_cache("*.native")), None, TEST),
             Fault("compiled core has no place", with_environment(TEST, CACHE, no_cache), None, TEST),
