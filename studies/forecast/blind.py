@@ -3,8 +3,9 @@
 Of the binder the viscosity of its grade is known, of the grading four sieves; the effective binder counts as binder.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import Any, cast
@@ -39,6 +40,8 @@ INDICES = (1.2, 1.4, 1.6, 1.8, 2.0, 2.2)  # of the binder's law
 GOAL = {"factor": 1.6, "phase_deg": 5.5}
 SOURCES = (193, 204, 213, 218, 229, 236)  # first mix of each run of numbers that share a grading or nearly
 HELD = 0.95  # of other sources' errors, within the band that is then tried on a source
+Usual = Mapping[str, Any]  # a recipe, for what a row lacks
+Model = Callable[[Recipe], np.ndarray]  # E* [Pa] of a mix
 
 
 @dataclass(frozen=True)
@@ -74,7 +77,7 @@ def grading_of(row: Mapping[str, float]) -> dict[float, float]:
 
 
 def recipe_of_row(
-    row: Mapping[str, float], points: pd.DataFrame, usual: Mapping[str, Any], index: float = RHEOLOGICAL_INDEX
+    row: Mapping[str, float], points: pd.DataFrame, usual: Usual, index: float = RHEOLOGICAL_INDEX
 ) -> Recipe:
     """The recipe of a mix, all that the row lacks from a `usual` one; `points` have the viscosity of its binder."""
     air, binder = row["air_voids_percent"] / 100.0, row["effective_binder_percent_by_volume"] / 100.0
@@ -104,9 +107,7 @@ def forecast_mix(recipe: Recipe, points: pd.DataFrame) -> pd.DataFrame:
     known = replace(recipe, binder=cast(BinderLaw, Known(fitted.to_numpy())))
     found = {"forecast": made.modulus, **{name: rival(recipe) for name, rival in RIVALS.items()}}
     found[CALIBRATED] = witczak(known)
-    found[SHIFTED["forecast"]] = shifted(
-        recipe, points, lambda mix: modulus_of_mix(mix, mix.binder_modulus())
-    )
+    found[SHIFTED["forecast"]] = shifted(recipe, points, forecast_modulus)
     found[SHIFTED["hirsch"]] = shifted(recipe, points, RIVALS["hirsch"])
     found |= {name: own_law(points, weight) for name, weight in FITTED.items()}
     for name, modulus in found.items():
@@ -118,7 +119,12 @@ def forecast_mix(recipe: Recipe, points: pd.DataFrame) -> pd.DataFrame:
     return table
 
 
-def shifted(recipe: Recipe, points: pd.DataFrame, model: Any) -> np.ndarray:
+def forecast_modulus(mix: Recipe, settings: Settings = USUAL) -> np.ndarray:
+    """E* (n,) [Pa] that is forecast of a mix."""
+    return modulus_of_mix(mix, mix.binder_modulus(), settings)
+
+
+def shifted(recipe: Recipe, points: pd.DataFrame, model: Model) -> np.ndarray:
     """E* (n,) [Pa] with the shift of the binder's time, -2 to 2 decades, that meets |E*| above COLDEST best."""
     warm = (points["temperature_C"] > COLDEST).to_numpy()
 
@@ -130,9 +136,8 @@ def shifted(recipe: Recipe, points: pd.DataFrame, model: Any) -> np.ndarray:
         off = np.log(1e-6 * np.abs(made(decades)) / points["E_MPa"].to_numpy())
         return float((off[warm] ** 2).mean())
 
-    return made(
-        float(minimize_scalar(misfit, bounds=(-2.0, 2.0), method="bounded", options={"xatol": 0.02}).x)
-    )
+    best = minimize_scalar(misfit, bounds=(-2.0, 2.0), method="bounded", options={"xatol": 0.02})
+    return made(float(best.x))
 
 
 def own_law(points: pd.DataFrame, weight: float) -> np.ndarray:
@@ -162,7 +167,7 @@ def own_law(points: pd.DataFrame, weight: float) -> np.ndarray:
 
 
 def forecast_all(
-    recipes: pd.DataFrame, moduli: pd.DataFrame, versions: Mapping[int, str], usual: Mapping[str, Any]
+    recipes: pd.DataFrame, moduli: pd.DataFrame, versions: Mapping[int, str], usual: Usual
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Points of all mixes that the forecast takes, and a row for each mix: why it was refused, or how far it is off.
 
@@ -171,11 +176,8 @@ def forecast_all(
     tables, rows = [], []
     for recipe in recipes.to_dict("records"):
         points = moduli[moduli["mix"] == recipe["mix"]]
-        row = {
-            "mix": int(recipe["mix"]),
-            "version": versions.get(int(recipe["mix"]), commit()),
-            "refused": "",
-        }
+        mix = int(recipe["mix"])
+        row = {"mix": mix, "version": versions.get(mix, commit()), "refused": ""}
         try:
             table = forecast_mix(recipe_of_row(recipe, points, usual), points)
         except InputError as error:
@@ -195,23 +197,12 @@ def errors(table: pd.DataFrame) -> pd.DataFrame:
     for model in MODELS:
         off = np.log(table[f"{model}_E_MPa"] / table["measured_E_MPa"])
         turned = table[f"{model}_phase_deg"] - table["measured_phase_deg"]
-        within = {}
+        row = {"model": model, "points": len(table)}
+        row |= {"factor": float(np.exp(np.sqrt((off**2).mean()))), "bias": float(np.exp(off.mean()))}
+        row |= {"phase_deg": float(np.sqrt((turned**2).mean())), "phase_bias_deg": float(turned.mean())}
         if model == "forecast":
-            within = {
-                "E_in_band": float((off.abs() <= table["half_band_ln_E"]).mean()),
-                "phase_in_band": float((turned.abs() <= table["half_band_phase_deg"]).mean()),
-            }
-        rows.append(
-            {
-                "model": model,
-                "points": len(table),
-                "factor": float(np.exp(np.sqrt((off**2).mean()))),
-                "bias": float(np.exp(off.mean())),
-                "phase_deg": float(np.sqrt((turned**2).mean())),
-                "phase_bias_deg": float(turned.mean()),
-                **within,
-            }
-        )
+            row |= (_band_reached(table) <= 1.0).mean().to_dict()
+        rows.append(row)
     return pd.DataFrame(rows)
 
 
@@ -223,9 +214,8 @@ def overall(points: pd.DataFrame) -> pd.DataFrame:
     rows = []
     for name, part in parts.items():
         found = errors(part)
-        by_mix = pd.DataFrame(
-            {mix: errors(own).set_index("model")["factor"] for mix, own in part.groupby("mix")}
-        )
+        each = {mix: errors(own).set_index("model")["factor"] for mix, own in part.groupby("mix")}
+        by_mix = pd.DataFrame(each)
         found["mixes"] = by_mix.shape[1]
         found["mixes_nearer_than_hirsch"] = (by_mix < by_mix.loc["hirsch"]).sum(axis=1).to_numpy()
         rows.append(found.assign(temperature_C=name))
@@ -238,11 +228,7 @@ def _measured(points: pd.DataFrame) -> np.ndarray:
 
 
 def _off(
-    recipes: pd.DataFrame,
-    moduli: pd.DataFrame,
-    usual: Mapping[str, Any],
-    model: Any,
-    index: float = RHEOLOGICAL_INDEX,
+    recipes: pd.DataFrame, moduli: pd.DataFrame, usual: Usual, model: Model, index: float = RHEOLOGICAL_INDEX
 ) -> list[np.ndarray]:
     """ln(E* / measured) (n,) above COLDEST of each mix, by a model of a recipe, with an index of the binder's law."""
     off = []
@@ -261,14 +247,12 @@ def _summed(off: list[np.ndarray]) -> dict[str, float]:
 def _cost(off: list[np.ndarray]) -> float:
     """How far from the goals, whose squares count alike."""
     found = _summed(off)
-    return float(
-        (np.log(found["factor"]) / np.log(GOAL["factor"])) ** 2
-        + (found["phase_deg"] / GOAL["phase_deg"]) ** 2
-    )
+    modulus = np.log(found["factor"]) / np.log(GOAL["factor"])
+    return float(modulus**2 + (found["phase_deg"] / GOAL["phase_deg"]) ** 2)
 
 
 def try_numbers(
-    recipes: pd.DataFrame, moduli: pd.DataFrame, usual: Mapping[str, Any], points: pd.DataFrame
+    recipes: pd.DataFrame, moduli: pd.DataFrame, usual: Usual, points: pd.DataFrame
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Errors above COLDEST for each pair of TRIED; and of each of SOURCES, with the pair that all others ask for.
 
@@ -276,31 +260,23 @@ def try_numbers(
     """
     tried = {}
     for contacts, gap in product(TRIED["contacts"], TRIED["gap"]):
-        settings = Settings(contacts=contacts, gap=gap)
-        tried[contacts, 1e9 * gap] = _off(
-            recipes, moduli, usual, lambda mix, by=settings: modulus_of_mix(mix, mix.binder_modulus(), by)
-        )
+        model = partial(forecast_modulus, settings=Settings(contacts=contacts, gap=gap))
+        tried[contacts, 1e9 * gap] = _off(recipes, moduli, usual, model)
     numbers = [{"contacts": c, "gap_nm": gap, **_summed(off)} for (c, gap), off in tried.items()]
     source = np.searchsorted(SOURCES, recipes["mix"], side="right")
     reached = _band_reached(points)
     of_point = np.searchsorted(SOURCES, points["mix"], side="right")
     rows, all_left, all_held = [], [], []
     for left in np.unique(source):
-        others = {
-            pair: [own for own, at in zip(off, source, strict=True) if at != left]
-            for pair, off in tried.items()
-        }
-        pair = (
-            min(others, key=lambda key: _cost(others[key])) if (source != left).any() else next(iter(tried))
-        )
-        own = [off for off, at in zip(tried[pair], source, strict=True) if at == left]
+        mine, others = np.flatnonzero(source == left), np.flatnonzero(source != left)
+        costs = {pair: _cost([off[k] for k in others]) if others.size else 0.0 for pair, off in tried.items()}
+        pair = min(costs, key=costs.__getitem__)
+        own = [tried[pair][k] for k in mine]
         wider = reached[of_point != left].quantile(HELD)
         held = reached[of_point == left] <= wider
         first, last = recipes["mix"][source == left].agg(["min", "max"])
-        rows.append(
-            {"mixes": f"{first:.0f} to {last:.0f}", "contacts": pair[0], "gap_nm": pair[1], **_summed(own)}
-        )
-        rows[-1] |= held.mean().to_dict()
+        row = {"mixes": f"{first:.0f} to {last:.0f}", "contacts": pair[0], "gap_nm": pair[1]}
+        rows.append(row | _summed(own) | held.mean().to_dict())
         all_left += own
         all_held.append(held)
     rows.append({"mixes": "all", **_summed(all_left), **pd.concat(all_held).mean().to_dict()})
@@ -310,19 +286,15 @@ def try_numbers(
 def _band_reached(points: pd.DataFrame) -> pd.DataFrame:
     """Error over half width of the band, of modulus and phase (n, 2)."""
     off = np.log(points["forecast_E_MPa"] / points["measured_E_MPa"]).abs() / points["half_band_ln_E"]
-    turned = (points["forecast_phase_deg"] - points["measured_phase_deg"]).abs() / points[
-        "half_band_phase_deg"
-    ]
-    return pd.DataFrame({"E_in_band": off, "phase_in_band": turned})
+    turned = (points["forecast_phase_deg"] - points["measured_phase_deg"]).abs()
+    return pd.DataFrame({"E_in_band": off, "phase_in_band": turned / points["half_band_phase_deg"]})
 
 
-def try_binders(recipes: pd.DataFrame, moduli: pd.DataFrame, usual: Mapping[str, Any]) -> pd.DataFrame:
+def try_binders(recipes: pd.DataFrame, moduli: pd.DataFrame, usual: Usual) -> pd.DataFrame:
     """Errors above COLDEST of forecast and Hirsch for each of INDICES of the binder's law."""
     rows = []
     for index in INDICES:
-        own = _off(
-            recipes, moduli, usual, lambda mix: modulus_of_mix(mix, mix.binder_modulus(), USUAL), index
-        )
+        own = _off(recipes, moduli, usual, forecast_modulus, index)
         other = _off(recipes, moduli, usual, RIVALS["hirsch"], index)
         nearer = sum(_summed([a])["factor"] < _summed([b])["factor"] for a, b in zip(own, other, strict=True))
         beside = {f"hirsch_{name}": value for name, value in _summed(other).items()}
@@ -338,14 +310,9 @@ def run(job: Any) -> None:
     versions = dict(zip(seen["mix"], seen["version"], strict=True))
     points, mixes = forecast_all(recipes, moduli, versions, usual)
     tried, left_out = try_numbers(recipes, moduli, usual, points)
-    tables = {
-        "points": points,
-        "mixes": mixes,
-        "overall": overall(points),
-        "tried": tried,
-        "left_out": left_out,
-    }
-    for name, table in (tables | {"binders": try_binders(recipes, moduli, usual)}).items():
+    tables = {"points": points, "mixes": mixes, "overall": overall(points), "tried": tried}
+    tables |= {"left_out": left_out, "binders": try_binders(recipes, moduli, usual)}
+    for name, table in tables.items():
         write_table(made[name], table)
 
 

@@ -93,25 +93,15 @@ def compare(pairs: list[Pair]) -> tuple[pd.DataFrame, pd.DataFrame]:
             off = np.log(found / pair.measured)
             # Witczak's regression is of |E*| alone.
             phase = np.degrees(np.angle(found)) if np.any(found.imag) else np.full(found.size, np.nan)
-            errors.append(
-                {
-                    "forecast": name,
-                    "parameters": parameters,
-                    "mix": pair.name,
-                    "factor_rms": float(np.exp(np.sqrt((off.real**2).mean()))),
-                    "phase_rms_deg": float(np.sqrt(((phase - pair.measured_phase) ** 2).mean())),
-                }
-            )
-            table = {
-                "forecast": name,
-                "mix": pair.name,
-                "omega_rad_s": pair.omega,
-                "E_MPa": 1e-6 * np.abs(found),
-                "phase_deg": phase,
-                "measured_E_MPa": 1e-6 * np.abs(pair.measured),
-                "measured_phase_deg": pair.measured_phase,
-            }
-            points.append(pd.DataFrame(table))
+            error = {"forecast": name, "parameters": parameters, "mix": pair.name}
+            error["factor_rms"] = float(np.exp(np.sqrt((off.real**2).mean())))
+            error["phase_rms_deg"] = float(np.sqrt(((phase - pair.measured_phase) ** 2).mean()))
+            errors.append(error)
+            table = pd.DataFrame({"forecast": name, "mix": pair.name, "omega_rad_s": pair.omega})
+            table["E_MPa"], table["phase_deg"] = 1e-6 * np.abs(found), phase
+            table["measured_E_MPa"] = 1e-6 * np.abs(pair.measured)
+            table["measured_phase_deg"] = pair.measured_phase
+            points.append(table)
     return pd.DataFrame(errors), pd.concat(points)
 
 
@@ -126,9 +116,8 @@ def _forecasts(pairs: list[Pair]) -> dict[str, tuple[int, Callable[[Pair], np.nd
     first = {pair.name: pair for pair in pairs}
     # As much later than the hot ones as their mix is not.
     hot, warm = first[HOT], first[WARM]
-    later = decades_slower(warm.mix, hot.mix, warm) - decades_slower(
-        warm.recipe.binder, hot.recipe.binder, warm
-    )
+    later = decades_slower(warm.mix, hot.mix, warm)
+    later -= decades_slower(warm.recipe.binder, hot.recipe.binder, warm)
     return {
         **{name: (0, partial(_rival, rival)) for name, rival in RIVALS.items()},
         "forecast without skeleton": (0, partial(made, settings=Settings(pressure=0.0))),
@@ -202,22 +191,12 @@ def overall(errors: pd.DataFrame) -> pd.DataFrame:
     """One row for each forecast: errors of each mix and of all together."""
     rows = []
     for name, group in errors.groupby("forecast", sort=False):
-        rows.append(
-            {
-                "forecast": name,
-                "parameters": int(group["parameters"].iloc[0]),
-                "factor_all": float(np.exp(np.sqrt((np.log(group["factor_rms"]) ** 2).mean()))),
-                "phase_all_deg": float(np.sqrt((group["phase_rms_deg"] ** 2).mean())),
-                **{
-                    f"factor_{mix}": value
-                    for mix, value in zip(group["mix"], group["factor_rms"], strict=True)
-                },
-                **{
-                    f"phase_{mix}_deg": value
-                    for mix, value in zip(group["mix"], group["phase_rms_deg"], strict=True)
-                },
-            }
-        )
+        factor, phase = (group.set_index("mix")[column] for column in ("factor_rms", "phase_rms_deg"))
+        row = {"forecast": name, "parameters": int(group["parameters"].iloc[0])}
+        row["factor_all"] = float(np.exp(np.sqrt((np.log(factor) ** 2).mean())))
+        row["phase_all_deg"] = float(np.sqrt((phase**2).mean()))
+        row |= {f"factor_{mix}": value for mix, value in factor.items()}
+        rows.append(row | {f"phase_{mix}_deg": value for mix, value in phase.items()})
     return pd.DataFrame(rows)
 
 

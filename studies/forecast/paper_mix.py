@@ -63,27 +63,17 @@ def compare_paper(grading: str | Path, laws: str | Path, recipe: Recipe) -> pd.D
     rows = []
     for temperature, law in zip(*read_published(laws), strict=True):
         omega = 2.0 * np.pi * np.array(FREQUENCIES)
-        binder = np.array(
-            [stiffness(penetration, temperature, omega) for penetration in PENETRATIONS.values()]
-        )
+        binder = np.array([stiffness(one, temperature, omega) for one in PENETRATIONS.values()])
         known = np.isfinite(binder).all(axis=0)
         measured = law.complex_modulus(omega[known])
         made = np.array([modulus_of_mix(own, of[known]) for of in binder])
         middle = made[list(PENETRATIONS).index("middle")]
         for k, frequency in enumerate(np.array(FREQUENCIES)[known]):
-            rows.append(
-                {
-                    "temperature_C": temperature,
-                    "frequency_Hz": frequency,
-                    "E_table3_MPa": 1e-6 * abs(measured[k]),
-                    **{
-                        f"E_{name}_MPa": 1e-6 * abs(found[k])
-                        for name, found in zip(PENETRATIONS, made, strict=True)
-                    },
-                    "phase_table3_deg": np.degrees(np.angle(measured[k])),
-                    "phase_middle_deg": np.degrees(np.angle(middle[k])),
-                }
-            )
+            row = {"temperature_C": temperature, "frequency_Hz": frequency}
+            moduli = dict(zip(["table3", *PENETRATIONS], [measured, *made], strict=True))
+            row |= {f"E_{name}_MPa": 1e-6 * abs(found[k]) for name, found in moduli.items()}
+            row["phase_table3_deg"] = np.degrees(np.angle(measured[k]))
+            rows.append(row | {"phase_middle_deg": np.degrees(np.angle(middle[k]))})
     return pd.DataFrame(rows)
 
 

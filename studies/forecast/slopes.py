@@ -14,11 +14,8 @@ from asphalt_nscd.cli import run_script
 from asphalt_nscd.files.store import write_table
 from asphalt_nscd.forecasting.binders import BinderLaw
 from asphalt_nscd.forecasting.recipe import Recipe, read_recipe
-from asphalt_nscd.forecasting.rivals import hirsch, witczak
-from asphalt_nscd.forecasting.scheme import modulus_of_mix
-from studies.forecast.voids import BINDER, AnyBinder
+from studies.forecast.voids import MODELS, AnyBinder, rise, surface
 
-MODELS = {"forecast": lambda mix: modulus_of_mix(mix, BINDER), "hirsch": hirsch, "witczak": witczak}
 STEPS = {"air": ("voids", 0.01), "binder": ("binder_share", 0.005)}  # of a recipe, to each side
 
 
@@ -26,24 +23,17 @@ def compare_slopes(measured: pd.DataFrame, recipe: Recipe) -> pd.DataFrame:
     """A row for each campaign and each of STEPS: d ln|E*| [% per %], measured with its error, and by MODELS."""
     rows = []
     for campaign in measured.to_dict("records"):
-        own = replace(
-            recipe,
-            voids=campaign["air_percent"] / 100.0,
-            binder_share=campaign["binder_percent"] / 100.0,
-            binder=cast(BinderLaw, AnyBinder()),
-        )
-        for name, (field, step) in STEPS.items():
-            row = {key: campaign[key] for key in ("campaign", "temperature_C", "specimens")} | {"of": name}
-            row |= {"measured": campaign[f"{name}_slope_percent"], "error": campaign[f"{name}_error_percent"]}
-            for model, modulus in MODELS.items():
-                at = getattr(own, field)
-                logs = [
-                    np.log(np.abs(modulus(replace(own, **{field: value}))))
-                    for value in (at - step, at, at + step)
-                ]
-                place = np.interp(np.log(1e6 * campaign["E_MPa"]), logs[1], np.arange(BINDER.size))
-                low, high = (np.interp(place, np.arange(BINDER.size), logs[k]) for k in (0, 2))
-                row[model] = float(high - low) / (2.0 * step)
+        shares = campaign["air_percent"] / 100.0, campaign["binder_percent"] / 100.0
+        binder = cast(BinderLaw, AnyBinder())
+        own = replace(recipe, voids=shares[0], binder_share=shares[1], binder=binder)
+        for quantity, (field, step) in STEPS.items():
+            row = {key: campaign[key] for key in ("campaign", "temperature_C", "specimens")}
+            row["of"] = quantity
+            for name, kind in (("measured", "slope"), ("error", "error")):
+                row[name] = campaign[f"{quantity}_{kind}_percent"]
+            level = np.log(1e6 * campaign["E_MPa"])
+            for name, model in MODELS.items():
+                row[name] = rise(surface(model, own, field, getattr(own, field), step), level) / (2.0 * step)
             rows.append(row)
     return pd.DataFrame(rows)
 

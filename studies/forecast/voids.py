@@ -4,6 +4,7 @@ The law of the binder cancels: each state is taken at the modulus of binder with
 binder content are those of the specimens, the grading that of another recipe.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
@@ -21,10 +22,10 @@ from asphalt_nscd.forecasting.rivals import hirsch, witczak
 from asphalt_nscd.forecasting.scheme import modulus_of_mix
 
 STEP = 0.01  # of the volume: slopes are taken between so much less air and so much more
-BINDER = np.geomspace(1e4, 6e8, 60) * np.exp(
-    1j * np.radians(45.0)
-)  # Pa; 30 or 60 degrees change no slope by a tenth
-RIVALS = {"hirsch": hirsch, "witczak": witczak}
+PHASE = np.radians(45.0)  # 30 or 60 degrees change no slope by a tenth
+BINDER = np.geomspace(1e4, 6e8, 60) * np.exp(1j * PHASE)  # Pa
+Model = Callable[[Recipe], np.ndarray]
+MODELS = {"forecast": lambda mix: modulus_of_mix(mix, BINDER), "hirsch": hirsch, "witczak": witczak}
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class AnyBinder:
 
 
 def compare_voids(folder: str | Path, recipe: Recipe) -> pd.DataFrame:
-    """d ln|E*| / d air voids [% per %], measured, forecast, by RIVALS, in a row for each temperature and frequency.
+    """d ln|E*| / d air voids [% per %], measured and by MODELS, in a row for each temperature and frequency.
 
     Measured: regression within mixes, with its standard error and the probability of a forecast as far off. Conditions
     with fewer than four mixes are left out. The last row is that of the means of each specimen, since what makes one
@@ -47,38 +48,36 @@ def compare_voids(folder: str | Path, recipe: Recipe) -> pd.DataFrame:
     by_condition = tests.groupby(["temperature_C", "frequency_Hz"])["mix"].transform("nunique")
     tests = tests[by_condition >= 4].reset_index(drop=True)
     tests["section"] = tests["mix"].str.rsplit("_", n=1).str[0]
-    names = ["forecast", *RIVALS]
+    names = list(MODELS)
     tests[names] = 0.0
     for _, section in tests.groupby("section"):
         surfaces = _surfaces(section, recipe)
         for _, state in section.groupby(["mix", "temperature_C", "frequency_Hz"]):
             level = float(np.log(1e6 * state["E_MPa"]).mean())
-            for name, surface in surfaces.items():
-                tests.loc[state.index, name] = _slope(surface, level)
+            for name, found in surfaces.items():
+                tests.loc[state.index, name] = rise(found, level) / (200.0 * STEP)
     condition = ["mix", "temperature_C", "frequency_Hz"]
     tests["log"] = np.log(tests["E_MPa"])
     # Less the means of its mix, whose unknown binder is then gone.
     for name in ("log", "Va_pct"):
         tests[name] -= tests.groupby(condition)[name].transform("mean")
-    rows = [
-        _row({"temperature_C": temperature, "frequency_Hz": frequency}, group, names)
-        for (temperature, frequency), group in tests.groupby(condition[1:])
-    ]
+    rows = [_row(at, group) for at, group in tests.groupby(condition[1:])]
     whole = tests.groupby(["mix", "specimen"])[["log", "Va_pct", "E_MPa", *names]].mean().reset_index()
-    return pd.DataFrame([*rows, _row({"temperature_C": np.nan, "frequency_Hz": np.nan}, whole, names)])
+    return pd.DataFrame([*rows, _row((np.nan, np.nan), whole)])
 
 
-def _row(condition: dict[str, float], group: pd.DataFrame, names: list[str]) -> dict[str, Any]:
-    """Regression of `log` on the air, both less the means of their mix."""
+def _row(condition: tuple[float, float], group: pd.DataFrame) -> dict[str, Any]:
+    """Regression of `log` on the air, both less the means of their mix, at a temperature and a frequency."""
     log, air = group["log"], group["Va_pct"]
     # A degree of freedom goes for the mean of each mix, and one for the slope.
     square, freedom = float((air**2).sum()), len(group) - group["mix"].nunique() - 1
     slope = float((log * air).sum()) / square
     error = float(np.sqrt(((log - slope * air) ** 2).sum() / freedom / square))
-    expected = {name: float((air**2 * group[name]).sum()) / square for name in names}
+    expected = {name: float((air**2 * group[name]).sum()) / square for name in MODELS}
     off = abs(expected["forecast"] - slope) / error if error else np.inf
     return {
-        **condition,
+        "temperature_C": condition[0],
+        "frequency_Hz": condition[1],
         "specimens": len(group),
         "E_MPa": float(np.exp(np.log(group["E_MPa"]).mean())),
         "measured_percent": 100.0 * slope,
@@ -91,25 +90,24 @@ def _row(condition: dict[str, float], group: pd.DataFrame, names: list[str]) -> 
 def _surfaces(section: pd.DataFrame, recipe: Recipe) -> dict[str, np.ndarray]:
     """ln|E*| (3, b) of the mix of a section for each BINDER, at less air, its own and more, by each model."""
     air = float(section["Va_pct"].mean()) / 100.0
-    stone = float(
-        ((100.0 - section["VMA_pct"]) / (100.0 - section["Va_pct"])).mean()
-    )  # of the volume without air
+    # of the volume without air
+    stone = float(((100.0 - section["VMA_pct"]) / (100.0 - section["Va_pct"])).mean())
     per_stone = (1.0 - stone) / stone * recipe.binder_density / recipe.aggregate_density
     own = replace(recipe, binder_share=per_stone / (1.0 + per_stone), binder=cast(BinderLaw, AnyBinder()))
-    surfaces: dict[str, list[np.ndarray]] = {name: [] for name in ("forecast", *RIVALS)}
-    for voids in (air - STEP, air, air + STEP):
-        mix = replace(own, voids=voids)
-        surfaces["forecast"].append(modulus_of_mix(mix, BINDER))
-        for name, rival in RIVALS.items():
-            surfaces[name].append(rival(mix))
-    return {name: np.log(np.abs(np.array(moduli))) for name, moduli in surfaces.items()}
+    return {name: surface(model, own, "voids", air, STEP) for name, model in MODELS.items()}
 
 
-def _slope(surface: np.ndarray, level: float) -> float:
-    """Per percent of air, where the mix has ln|E*| = level."""
+def surface(model: Model, mix: Recipe, field: str, at: float, step: float) -> np.ndarray:
+    """ln|E*| (3, b) of a mix for each BINDER, a step below a value of a field of its recipe, at it and above."""
+    changes: list[dict[str, Any]] = [{field: value} for value in (at - step, at, at + step)]
+    return np.log(np.abs(np.array([model(replace(mix, **change)) for change in changes])))
+
+
+def rise(surface: np.ndarray, level: float) -> float:
+    """Of ln|E*| over both steps, at the binder with which the mix has ln|E*| = level."""
     place = np.interp(level, surface[1], np.arange(BINDER.size))
     low, high = (np.interp(place, np.arange(BINDER.size), surface[k]) for k in (0, 2))
-    return float(high - low) / (200.0 * STEP)
+    return float(high - low)
 
 
 def _specimens(folder: Path) -> pd.DataFrame:

@@ -61,14 +61,11 @@ def predictions(
 def isotherms(table: pd.DataFrame) -> list[tuple[float, pd.DataFrame]]:
     """Mean ln|E*| and phase [rad] of the specimens at each frequency, by temperature [degC]."""
     means = table.assign(log_modulus=np.log(table["E_MPa"]), phase=np.radians(table["phase_deg"]))
-    means = means.groupby(["temperature_C", "frequency_Hz"])[["log_modulus", "phase"]].agg(["mean", "count"])
-    found = []
-    for temperature, group in means.groupby(level=0):
-        rows = group.droplevel(0)
-        if len(rows) >= LEAST:
-            columns = {name: rows[(name, "mean")] for name in ("log_modulus", "phase")}
-            found.append((float(temperature), pd.DataFrame(columns).assign(count=rows[("phase", "count")])))
-    return found
+    means = means.groupby(["temperature_C", "frequency_Hz"]).agg(
+        log_modulus=("log_modulus", "mean"), phase=("phase", "mean"), count=("phase", "count")
+    )
+    each = ((float(temperature), group.droplevel(0)) for temperature, group in means.groupby(level=0))
+    return [(temperature, group) for temperature, group in each if len(group) >= LEAST]
 
 
 def excess(population: str, mix: str, table: pd.DataFrame, mechanisms: Mechanisms) -> pd.DataFrame:
@@ -77,32 +74,23 @@ def excess(population: str, mix: str, table: pd.DataFrame, mechanisms: Mechanism
     means = isotherms(table)
     predicted = predictions(means, mechanisms, AMPLITUDES.get(population, USUAL_AMPLITUDE))
     for (temperature, at), own in zip(means, predicted, strict=True):
-        frequency, log_modulus, phase, count = (
-            at.index.to_numpy(),
-            at["log_modulus"].to_numpy(),
-            at["phase"].to_numpy(),
-            at["count"].to_numpy(),
-        )
-        modulus_scatter, phase_scatter = (size / np.sqrt(count) for size in SCATTER)
-        required = required_phase(frequency, log_modulus, modulus_scatter)
-        whole = constant_excess(
-            frequency, np.array([log_modulus, phase]), np.array([modulus_scatter, phase_scatter]) ** 2
-        )
-        parts.append(
-            pd.DataFrame(
-                {
-                    "population": population,
-                    "mix": mix,
-                    "temperature_C": temperature,
-                    "frequency_Hz": frequency,
-                    "measured_deg": np.degrees(phase - required.phase),
-                    "standard_error_deg": np.degrees(np.hypot(required.std_error, phase_scatter)),
-                    **{f"{name}_deg": values for name, values in own.items()},
-                    "isotherm_deg": np.degrees(whole[0]),
-                    "isotherm_standard_error_deg": np.degrees(whole[1]),
-                }
-            )
-        )
+        frequency = at.index.to_numpy()
+        log_modulus, phase, count = (at[name].to_numpy() for name in ("log_modulus", "phase", "count"))
+        scatter = np.outer(SCATTER, 1.0 / np.sqrt(count))
+        required = required_phase(frequency, log_modulus, scatter[0])
+        whole = constant_excess(frequency, np.array([log_modulus, phase]), scatter**2)
+        columns = {
+            "population": population,
+            "mix": mix,
+            "temperature_C": temperature,
+            "frequency_Hz": frequency,
+            "measured_deg": np.degrees(phase - required.phase),
+            "standard_error_deg": np.degrees(np.hypot(required.std_error, scatter[1])),
+            **{f"{name}_deg": values for name, values in own.items()},
+            "isotherm_deg": np.degrees(whole[0]),
+            "isotherm_standard_error_deg": np.degrees(whole[1]),
+        }
+        parts.append(pd.DataFrame(columns))
     return pd.concat(parts, ignore_index=True)
 
 

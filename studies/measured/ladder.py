@@ -15,6 +15,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
+from scipy.interpolate import make_interp_spline
 from scipy.optimize import minimize_scalar
 
 from asphalt_nscd.bending.excerpt import ModelExcerpt, read_excerpt
@@ -56,22 +57,15 @@ def burgers(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> 
     """A Burgers law at each temperature; elsewhere the logarithms of its parameters follow straight lines."""
     at = np.unique(temperature)
     laws = [fit_burgers(omega[temperature == t], modulus[temperature == t]).law for t in at]
-    logarithms = np.log([list(parameters(law).values()) for law in laws])
+    lines = make_interp_spline(at, np.log([list(parameters(law).values()) for law in laws]), k=1)
 
     def law_at(temperature: float) -> Burgers:
-        return Burgers(*np.exp([_line(temperature, at, column) for column in logarithms.T]))
+        return Burgers(*np.exp(lines(temperature)).tolist())
 
     def law(omega: np.ndarray, temperature: np.ndarray) -> np.ndarray:
         return np.array([law_at(t).complex_modulus(w) for w, t in zip(omega, temperature, strict=True)])
 
     return Fit(law, 4 * at.size, lambda omega, temperature: law_at(temperature).kelvin_form())
-
-
-def _line(place: float, at: np.ndarray, values: np.ndarray) -> float:
-    """Value on the straight line through the two places that are nearest in their order."""
-    right = int(np.clip(np.searchsorted(at, place), 1, at.size - 1))
-    share = (place - at[right - 1]) / (at[right] - at[right - 1])
-    return float(values[right - 1] + share * (values[right] - values[right - 1]))
 
 
 def spectrum(omega: np.ndarray, temperature: np.ndarray, modulus: np.ndarray) -> tuple[Spectrum, int]:

@@ -39,7 +39,8 @@ class Mechanisms:
             levels.append(np.log(row["E_MPa"]).mean())
             parts = [np.interp(phase, row["phase_deg"], row[name]) for name in ("lnE", "change_deg")]
             changes.append(parts[0] + 1j * np.radians(parts[1]))
-        return _along(np.log(np.abs(modulus) / 1e6), np.array(levels), np.array(changes))
+        at = zip(np.log(np.abs(modulus) / 1e6), np.transpose(changes), strict=True)
+        return np.array([np.interp(place, levels, own) for place, own in at])
 
     def softening(self, modulus: Vector, amplitude: float, kind: str = "haversine") -> Vector:
         """The same by films that soften; kind: "haversine" or "pulled"."""
@@ -48,14 +49,6 @@ class Mechanisms:
         slope = np.angle(modulus) / (0.5 * np.pi)
         of = {name: np.interp(slope, self.clock["slope"], self.clock[name]) for name in self.clock}
         return fall / -of["pulled_lnE"] * (of[f"{kind}_lnE"] + 1j * np.radians(of[f"{kind}_deg"]))
-
-
-def _along(place: Vector, levels: Vector, values: np.ndarray) -> Vector:
-    """Values (l, n) at rising levels (l,), on straight lines at each place (n,); the ends hold beyond them."""
-    right = np.clip(np.searchsorted(levels, place), 1, levels.size - 1)
-    share = np.clip((place - levels[right - 1]) / (levels[right] - levels[right - 1]), 0.0, 1.0)
-    column = np.arange(place.size)
-    return values[right - 1, column] * (1.0 - share) + values[right, column] * share
 
 
 def excess_of(frequency: Vector, modulus: Vector, change: Vector) -> Vector:

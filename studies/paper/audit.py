@@ -22,34 +22,13 @@ from asphalt_nscd.specimen.counts import read_counts
 from studies.paper import equations, outcomes
 from studies.paper.finding import DIFFERS, HOLDS, NOT_JUDGED, REPRODUCED, Finding
 
-COLUMNS = [
-    "id",
-    "where",
-    "statement",
-    "published",
-    "ours",
-    "unit",
-    "verdict",
-    "needs",
-    "evidence",
-    "otherwise",
-]
+COLUMNS = "id where statement published ours unit verdict needs evidence otherwise".split()
+TABLES = "simulations sensitivity readings bond_readings packing table4 time_steps".split()
 
 
 def findings(paths: Mapping[str, Any]) -> Iterable[Finding]:
     """All findings. paths: files of each kind, as the rule `audit` names them."""
-    table = {
-        name: pd.read_csv(paths[name])
-        for name in (
-            "simulations",
-            "sensitivity",
-            "readings",
-            "bond_readings",
-            "packing",
-            "table4",
-            "time_steps",
-        )
-    }
+    table = {name: pd.read_csv(paths[name]) for name in TABLES}
     tests, readings = table["simulations"], table["bond_readings"]
     # In kPa: in the Pa that Table 3 prints, asphalt at -10 degC would be a rubber of 40 MPa.
     published = dict(zip(*read_published(paths["laws"], "kPa"), strict=True))
@@ -176,8 +155,10 @@ def _rounded(value: object) -> object:
     return float(f"{value:.6g}") if isinstance(value, float) else value
 
 
+def run(job: Any) -> None:
+    """From the files of the rule to its table."""
+    write_table(job.output[0], told(job.input.statements, findings(dict(job.input.items()))))
+
+
 if __name__ == "__main__":
-    run_script(
-        globals()["snakemake"],
-        lambda job: write_table(job.output[0], told(job.input.statements, findings(dict(job.input.items())))),
-    )
+    run_script(globals()["snakemake"], run)

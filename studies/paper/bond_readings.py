@@ -7,18 +7,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.cli import run_script
-from asphalt_nscd.files.store import load, write_table
+from asphalt_nscd.cli import run_table
+from asphalt_nscd.files.store import load
 from asphalt_nscd.specimen.cutting import read_specimen
 from asphalt_nscd.specimen.prism import static_ratio
 from asphalt_nscd.specimen.system import bending_system
 from asphalt_nscd.specimen.trimming import Specimen, trim
-from studies.paper.other_bonds import (
-    crossing,
-    farther_plates,
-    ratio_without_moments,
-    with_mean_radius,
-)
+from studies.paper.other_bonds import crossing, farther_plates, ratio_without_moments, with_mean_radius
 
 POISSON = 0.35  # of Eqs. (8)-(11)
 PRINTED = 0.0056  # mean relative error of |E*| at -10 degC, Table 4: how near to one the authors' ratio was
@@ -58,20 +53,13 @@ def make(
     nearer = [bonded(name, shrunk) for name in names]
     crossed, crossed_nearer = (100.0 * crossing(one).mean() for one in (first, nearer[0]))
     whole, bonds = {"reach": gap, "crossed": crossed}, first.network.first.size
-    rows = [
-        _row(OURS, layers[names[0]], list(known), bonds, whole),
-        *(
-            _row(OURS, layers[name], [tested.loc[name, "ratio"]], tested.loc[name, "bonds"], {"reach": gap})
-            for name in loose
-        ),
-        _row(
-            AFTER,
-            layers[names[0]],
-            [_ratio(one) for one in nearer],
-            nearer[0].network.first.size,
-            {"reach": shrunk, "crossed": crossed_nearer},
-        ),
-    ]
+    rows = [_row(OURS, layers[names[0]], list(known), bonds, whole)]
+    for name in loose:
+        ratio, count = tested.loc[name, ["ratio", "bonds"]]
+        rows.append(_row(OURS, layers[name], [ratio], count, {"reach": gap}))
+    beside = {"reach": shrunk, "crossed": crossed_nearer}
+    ratios = [_ratio(one) for one in nearer]
+    rows.append(_row(AFTER, layers[names[0]], ratios, nearer[0].network.first.size, beside))
     for name in loose:
         one = bonded(name, shrunk)
         rows.append(_row(AFTER, layers[name], [_ratio(one)], one.network.first.size, {"reach": shrunk}))
@@ -86,9 +74,8 @@ def make(
     rows += [_row(reading, layers[names[0]], [ratio], bonds, whole) for reading, ratio in alone.items()]
     table = pd.DataFrame(rows)
     error = table["std_error"].iloc[0]
-    table["expected"] = table["E_over_law"].where(
-        table["samples"] > 1, table["E_over_law"] * known.mean() / known[0]
-    )
+    of_all = table["E_over_law"] * known.mean() / known[0]
+    table["expected"] = table["E_over_law"].where(table["samples"] > 1, of_all)
     # sqrt(2): the authors' mean of as many samples scatters as ours does.
     table["possible"] = (table["expected"] - 1.0).abs() <= PRINTED + 2.0 * np.sqrt(2.0) * error
     return table
@@ -129,9 +116,4 @@ def _of_test(path: str | Path) -> float:
 
 
 if __name__ == "__main__":
-    run_script(
-        globals()["snakemake"],
-        lambda job: write_table(
-            job.output[0], make(job.input.deposits, job.input.specimens, job.input.tests, job.input.blocked)
-        ),
-    )
+    run_table(globals()["snakemake"], make)

@@ -5,8 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.cli import run_script
-from asphalt_nscd.files.store import write_table
+from asphalt_nscd.cli import run_table
 from asphalt_nscd.reporting.tables.rivals import KINDS, REFERENCE, errors_of
 from asphalt_nscd.rheology.reconstruct import fit_published
 from asphalt_nscd.rheology.rivals import rivals
@@ -40,9 +39,9 @@ def make(laws: str | Path, errors: str | Path) -> pd.DataFrame:
     for quantity, printed_error in (("E", "error"), ("phase", "phase_error")):
         over = found[[(kind, quantity) for kind in KINDS]]
         drawn = over.iloc[1:]
+        mean = 100.0 * np.mean([getattr(one, printed_error) for one in known])
         columns = {
-            "burgers": [100.0 * np.mean([getattr(one, printed_error) for one in known])]
-            + [np.nan] * (len(KINDS) - 1),
+            "burgers": [mean, *[np.nan] * (len(KINDS) - 1)],
             "nearest": over.iloc[0].to_numpy(),
             "mean": drawn.mean().to_numpy(),
             "lowest": drawn.min().to_numpy(),
@@ -53,6 +52,4 @@ def make(laws: str | Path, errors: str | Path) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    run_script(
-        globals()["snakemake"], lambda job: write_table(job.output[0], make(job.input.laws, job.input.errors))
-    )
+    run_table(globals()["snakemake"], make)

@@ -75,22 +75,18 @@ def calibration(
     values |= {f"time_{unit}": elastic_time(modulus) for unit, modulus in (("Pa", 2.43e7), ("kPa", 2.43e10))}
     yield Finding("table3_unit", coldest.modulus_m / 1e9, values=values)
     moduli = [abs(laws[t].complex_modulus(2.0 * np.pi * 10.0)) / 1e6 for t in design["temperature_C"]]
-    times = {
-        mix: spanned(ratio, ".1f")
-        for mix, ratio in (np.array(moduli) / design["E_MPa"]).groupby(design["mix"])
-    }
+    ratios = (np.array(moduli) / design["E_MPa"]).groupby(design["mix"])
+    times = {mix: spanned(ratio, ".1f") for mix, ratio in ratios}
     yield Finding("level_of_table3", str(times["BBSG 2 and 3"]), values={"stiffer_mix": times["BBME 1"]})
     yield Finding("limit_Em", abs(law.complex_modulus(np.array([1e9]))[0]) / law.modulus_m)
 
 
 def table_4(laws: dict[float, Burgers], printed: pd.DataFrame) -> Iterator[Finding]:
     """What Tables 3 and 4 say together. printed: temperature_C and mre_phase_percent of Table 4."""
-    degrees = {
-        row.temperature_C: row.mre_phase_percent
-        / 100.0
-        * float(np.degrees(np.angle(laws[row.temperature_C].complex_modulus(OMEGA))).mean())
-        for row in printed.itertuples()
-    }
+    degrees = {}
+    for t, percent in zip(printed["temperature_C"], printed["mre_phase_percent"], strict=True):
+        phase = np.degrees(np.angle(laws[t].complex_modulus(OMEGA)))
+        degrees[t] = percent / 100.0 * float(phase.mean())
     coldest = min(degrees)
     others = [value for t, value in degrees.items() if t != coldest]
     least = sum(value < degrees[coldest] for value in others)

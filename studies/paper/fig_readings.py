@@ -34,11 +34,8 @@ def draw(readings: list[Path], simulations: list[Path]) -> Figure:
     cases = {"used": isotherm_rows(used, other["temperature_C"].iloc[0])}
     cases |= dict(iter(other.groupby("reading")))
     law = "Table 3 in kPa" if set(used["law_source"]) == {"published"} else "fitted law"
-    names = {
-        "used": f"{law}, head free",
-        "pascal": "Table 3 in Pa, head free",
-        "blocked": f"{law}, head blocked",
-    }
+    names = {"used": f"{law}, head free", "pascal": "Table 3 in Pa, head free"}
+    names["blocked"] = f"{law}, head blocked"
     figure, (left, right) = style.new_figure(style.WIDE, 70.0, columns=2)
     for name, rows in cases.items():
         look = LOOKS[name] | {"label": names[name]}
@@ -64,10 +61,10 @@ def _points(axes: Axes, look: dict[str, Any], rows: pd.DataFrame, values: pd.Ser
     axes.plot(rows["frequency_Hz"].iloc[order], values.iloc[order], lw=0.6, **look)
 
 
+def run(job: Any) -> None:
+    """From the files of the rule to its figure."""
+    save_figure(draw(job.input.readings, job.input.simulations), job.output[0].removesuffix(".pdf"))
+
+
 if __name__ == "__main__":
-    run_script(
-        globals()["snakemake"],
-        lambda job: save_figure(
-            draw(job.input.readings, job.input.simulations), job.output[0].removesuffix(".pdf")
-        ),
-    )
+    run_script(globals()["snakemake"], run)

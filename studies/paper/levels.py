@@ -5,8 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.cli import run_script
-from asphalt_nscd.files.store import write_table
+from asphalt_nscd.cli import run_table
 from asphalt_nscd.reporting.tables.table4 import read_errors
 from studies.paper.bond_readings import OURS
 
@@ -58,9 +57,4 @@ def _with_ratio(path: str | Path) -> pd.DataFrame:
 
 
 if __name__ == "__main__":
-    run_script(
-        globals()["snakemake"],
-        lambda job: write_table(
-            job.output[0], make(job.input.simulations, job.input.likely, job.input.errors)
-        ),
-    )
+    run_table(globals()["snakemake"], make)

@@ -139,11 +139,8 @@ def numerics(tests: pd.DataFrame, table: pd.DataFrame, costs: pd.DataFrame) -> I
     yield Finding("steps", ", ".join(str(int(steps[f])) for f in printed), bool(apart) and max(apart) < 0.002)
     solved, swept = (table[table["scheme"] == name] for name in (time_steps.SOLVED, time_steps.SWEPT))
     ratio, right = swept["E_over_solution"], int(swept["right"].sum())
-    values: dict[str, Any] = {
-        "scale": ELASTIC_TIME,
-        "step": TIME_STEP,
-        "longest": longest_step(table, time_steps.SOLVED),
-    }
+    values: dict[str, Any] = {"scale": ELASTIC_TIME, "step": TIME_STEP}
+    values["longest"] = longest_step(table, time_steps.SOLVED)
     values |= {"wrong": None if right else spanned(ratio, ".2g"), "right": right or None, "pairs": len(swept)}
     spread = float(solved["E_over_solution"].max() / solved["E_over_solution"].min() - 1.0)
     yield Finding("time_step", 100.0 * spread, values=values)
@@ -191,21 +188,14 @@ def laws_and_samples(
     usual, possible = _usual(readings), readings[readings["possible"]]
     for name, reading in (("ours", OURS), ("after", AFTER)):
         row = usual.loc[reading]
-        values |= {
-            f"{name}_mm": row["gap_max_mm"],
-            f"{name}_bonds": row["bonds"],
-            f"{name}_ratio": row["E_over_law"],
-        }
+        columns = {"mm": "gap_max_mm", "bonds": "bonds", "ratio": "E_over_law"}
+        values |= {f"{name}_{kind}": row[column] for kind, column in columns.items()}
     rows = [f"{row.reading}, friction {row.friction:g}: {row.expected:.3f}" for row in possible.itertuples()]
-    values |= {
-        "possible": "; ".join(rows) or None,
-        "crossed": usual.loc[OURS, "through_third_sphere_percent"],
-    }
-    values |= {"mean_radius": usual.loc[MEAN_RADIUS, "E_over_law"], "blocked": spanned(blocked, ".2f")}
-    if facets is None:
-        values["facets"] = None
-    else:
-        values["facets"] = spanned(_ratios(facets).groupby(facets["specimen"]).mean(), ".3f")
+    values |= {"possible": "; ".join(rows) or None, "blocked": spanned(blocked, ".2f")}
+    values["crossed"] = usual.loc[OURS, "through_third_sphere_percent"]
+    values["mean_radius"] = usual.loc[MEAN_RADIUS, "E_over_law"]
+    remapped = () if facets is None else _ratios(facets).groupby(facets["specimen"]).mean()
+    values["facets"] = spanned(remapped, ".3f")
     verdict = LEFT_OPEN if not near and rows else near
     yield Finding("macro_is_micro", float(ratio.mean()), verdict, values)
     yield Finding("one_ratio", 100.0 * float((by_sample.max() / by_sample.min() - 1.0).max()))
@@ -231,10 +221,10 @@ def _ratios(tests: pd.DataFrame) -> pd.Series:
 def agreement(table: pd.DataFrame, refit: pd.DataFrame) -> Iterator[Finding]:
     """Table 4. table: table4.csv; refit: errors of Burgers laws refitted to the same data."""
     cold = table.loc[table["temperature_C"].idxmin()]
-    values: dict[str, Any] = {
-        name.removeprefix("mre_").removesuffix("_percent"): " ".join(f"{value:.3g}" for value in column)
-        for name, column in table.filter(like="mre_").items()
-    }
+    values: dict[str, Any] = {}
+    for name, column in table.filter(like="mre_").items():
+        errors = " ".join(f"{value:.3g}" for value in column)
+        values[str(name).removeprefix("mre_").removesuffix("_percent")] = errors
     values |= {"data": joined(sorted(table["compared_with"].unique())), "coldest": cold["temperature_C"]}
     refitted = float(refit.set_index("temperature_C")["mre_phase_percent"][cold["temperature_C"]])
     values |= {"published": float(cold["mre_phase_published_percent"]), "refitted": refitted}
@@ -266,9 +256,8 @@ def waveform(test: Record) -> Finding:
 
 def profile(arrays: Mapping[str, Any]) -> Iterator[Finding]:
     """Fig. 8, from the arrays of one test."""
-    velocity, members, height = (
-        arrays[f"profile/{name}"] for name in ("velocity_m_s", "spheres", "height_m")
-    )
+    names = "velocity_m_s", "spheres", "height_m"
+    velocity, members, height = (arrays[f"profile/{name}"] for name in names)
     fastest = velocity[np.abs(velocity).sum(axis=1).argmax()]
     along, level = np.abs(fastest[members > 0]), height[members > 0]
     rises = bool((np.diff(along) > -0.02 * along.max()).all()) and along[0] < 0.01 * along[-1]
@@ -280,18 +269,16 @@ def profile(arrays: Mapping[str, Any]) -> Iterator[Finding]:
 
 def sensitivity(tests: pd.DataFrame, base: pd.DataFrame) -> Iterator[Finding]:
     """Figs. 11-14. tests: sensitivity.csv; base: simulations at the same temperature."""
-    effect = {
-        kind: _effect(tests, base, column).abs() for kind, column in (("E", "E_MPa"), ("phase", "phase_deg"))
-    }
-    modulus = effect["E"].groupby("parameter").mean()
+    of_modulus, of_phase = (_effect(tests, base, column).abs() for column in ("E_MPa", "phase_deg"))
+    modulus = of_modulus.groupby("parameter").mean()
     listed = ", ".join(f"{name} {value:.1f} %" for name, value in modulus.items())
     yield Finding("influence_Em", str(modulus.idxmax()), modulus.idxmax() == "Em", {"listed": listed})
     for id, name in (("grows_Em", "Em"), ("grows_eta_k", "eta_k")):
-        along = effect["E"].loc[name].groupby("frequency_Hz").mean()
+        along = of_modulus.loc[name].groupby("frequency_Hz").mean()
         grows = bool((np.diff(along) > 0.0).all()) and (name == "Em" or modulus[name] < modulus["Em"])
         values = {"where": along.idxmax(), "largest": along.max()}
         yield Finding(id, f"{along.iloc[0]:.1f} to {along.iloc[-1]:.1f}", grows, values)
-    phase = effect["phase"].groupby("parameter").max()
+    phase = of_phase.groupby("parameter").max()
     listed = ", ".join(f"{name} {value:.0f}" for name, value in phase.items())
     yield Finding("phase_sensitive", listed, bool((phase > 5.0).all()))
 

@@ -5,8 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.cli import run_script
-from asphalt_nscd.files.store import write_table
+from asphalt_nscd.cli import run_table
 from asphalt_nscd.reporting.tables.table4 import read_errors
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.reconstruct import fit_published
@@ -52,10 +51,8 @@ def make(laws: str | Path, errors: str | Path) -> pd.DataFrame:
 def _missed(law: np.ndarray, data: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Mean relative errors in percent (t,) of |E*| and phase of laws against data, both ln E* (t, f)."""
     apart = law - data
-    return (
-        100.0 * np.abs(np.expm1(apart.real)).mean(axis=1),
-        100.0 * np.abs(apart.imag / data.imag).mean(axis=1),
-    )
+    norm, phase = np.abs(np.expm1(apart.real)), np.abs(apart.imag / data.imag)
+    return 100.0 * norm.mean(axis=1), 100.0 * phase.mean(axis=1)
 
 
 def _scatter(seed: int, shape: tuple[int, ...]) -> np.ndarray:
@@ -67,6 +64,4 @@ def _scatter(seed: int, shape: tuple[int, ...]) -> np.ndarray:
 
 
 if __name__ == "__main__":
-    run_script(
-        globals()["snakemake"], lambda job: write_table(job.output[0], make(job.input.laws, job.input.errors))
-    )
+    run_table(globals()["snakemake"], make)

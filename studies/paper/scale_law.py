@@ -32,10 +32,10 @@ def scale_law(law: str | Path, parameter: str, factor: float, output: str | Path
     return content
 
 
+def run(job: Any) -> None:
+    """From the files of the rule to its law."""
+    scale_law(job.input.law, job.wildcards.parameter, float(job.wildcards.factor), job.output[0])
+
+
 if __name__ == "__main__":
-    run_script(
-        globals()["snakemake"],
-        lambda job: scale_law(
-            job.input.law, job.wildcards.parameter, float(job.wildcards.factor), job.output[0]
-        ),
-    )
+    run_script(globals()["snakemake"], run)

@@ -21,9 +21,8 @@ from scipy.optimize import Bounds, LinearConstraint, milp
 from asphalt_nscd.rheology.burgers import Burgers
 
 Vector = NDArray[np.float64]
-LEVEL = (
-    0.0056  # how far the level of the simulation may lie from that of its law: error at the coldest, Table 4
-)
+# How far the level of the simulation may lie from that of its law: error at the coldest, Table 4.
+LEVEL = 0.0056
 SLACK = 0.02  # of the printed errors: their rounding
 ROUNDS = 3  # of the linearisation
 DECADES = np.arange(-2.0, 2.01, 0.25)  # retardation times about the middle frequency
@@ -154,19 +153,13 @@ class _Program:
         low[self.scatter], low[self.level], high[self.level], high[self.signs] = -np.inf, -LEVEL, LEVEL, 1.0
         if wanted == "scatter":
             aim = np.eye(self.size)[-1]
-            rows.append(
-                (phase[None], (1.0 - SLACK) * printed.phase_error, (1.0 + SLACK) * printed.phase_error)
-            )
+            bounds = (1.0 - SLACK) * printed.phase_error, (1.0 + SLACK) * printed.phase_error
+            rows.append((phase[None], *bounds))
         else:
             aim = phase if wanted == "smallest" else -phase
             # Bounds are of smooth data, which have no scatter.
             high[-1] = 0.0
         whole = np.zeros(self.size)
         whole[self.signs] = 1
-        found = milp(
-            aim,
-            constraints=[LinearConstraint(*row) for row in rows],
-            integrality=whole,
-            bounds=Bounds(low, high),
-        )
-        return found.x
+        constraints = [LinearConstraint(*row) for row in rows]
+        return milp(aim, constraints=constraints, integrality=whole, bounds=Bounds(low, high)).x

@@ -5,8 +5,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from asphalt_nscd.cli import run_script
-from asphalt_nscd.files.store import write_table
+from asphalt_nscd.cli import run_table
 from asphalt_nscd.reporting.tables.table4 import read_errors
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.sampling import FREQUENCIES
@@ -54,6 +53,4 @@ def printed(laws: str | Path, errors: str | Path, weight: float = 1.0) -> list[t
 
 
 if __name__ == "__main__":
-    run_script(
-        globals()["snakemake"], lambda job: write_table(job.output[0], make(job.input.laws, job.input.errors))
-    )
+    run_table(globals()["snakemake"], make)

@@ -116,6 +116,18 @@ def run_script(job: Any, step: Callable[[Any], object]) -> None:
     _end(lambda: _checked(job, step))
 
 
+def run_table(job: Any, make: Callable[..., Any]) -> None:
+    """Likewise with a table, the script's one output, that is made of its inputs by their names."""
+
+    def step(job: Any) -> None:
+        from asphalt_nscd.files.store import write_table
+
+        named = {name: files for name, files in job.input.items() if name != "code"}
+        write_table(job.output[0], make(**named))
+
+    run_script(job, step)
+
+
 def _checked(job: Any, step: Callable[[Any], object]) -> None:
     digests.require_unchanged(map(str, job.input))
     step(job)

@@ -17,6 +17,14 @@ from studies.paper.scale_law import scale_law
 job = SimpleNamespace(log=["log"], input=["law.json"])
 run_script(job, lambda job: scale_law(job.input[0], "Em", 2.0, "scaled.json"))
 """
+NAMED = """
+from types import SimpleNamespace
+import pandas as pd
+from snakemake.iocontainers import InputFiles
+from asphalt_nscd.cli import run_table
+given = InputFiles(fromdict={"laws": "laws.csv", "code": "stamp"})
+run_table(SimpleNamespace(log=["log"], input=given, output=["t.csv"]), lambda laws: pd.DataFrame({"laws": [laws]}))
+"""
 
 
 def test_the_code_behind_a_script_is_its_neighbours_and_what_they_import(monkeypatch):
@@ -41,3 +49,11 @@ def test_a_script_that_cannot_work_says_one_sentence_in_its_log(tmp_path):
     assert done.returncode == 2 and done.stdout == done.stderr == b""
     said = (tmp_path / "log").read_text()
     assert said.startswith("error: law.json: key 'Em_Pa' is missing") and said.count("\n") == 1
+
+
+def test_a_table_is_made_of_the_inputs_by_their_names(tmp_path):
+    paths = os.pathsep.join([str(ROOT / "src"), os.environ.get("PYTHONPATH", "")])
+    command = [sys.executable, "-c", NAMED]
+    done = subprocess.run(command, cwd=tmp_path, env=os.environ | {"PYTHONPATH": paths})
+    assert done.returncode == 0, (tmp_path / "log").read_text()
+    assert (tmp_path / "t.csv").read_text() == "laws\nlaws.csv\n"
