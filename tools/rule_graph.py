@@ -14,11 +14,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 
 # Rules of one kind are one box, else half of them would be figures and pages.
+TABLES = r"table\d|samples|preparation|ladder|fracture|families|audit|smoothness|ensemble|time_steps|levels"
 KINDS = [
-    (
-        r"fig\w+|table\d|samples|preparation|ladder|fracture|families|audit|smoothness|ensemble|time_steps|levels",
-        "figures and tables",
-    ),
+    (rf"fig\w+|{TABLES}", "figures and tables"),
     (r"export_\w+", "export_abaqus, ..."),
     (r"(draw|reduce|diagnose)_family", "draw_, reduce_,\ndiagnose_family"),
     (r"\w+_page|pages|report|workflow_report|timings|provenance", "pages, report"),
@@ -94,11 +92,8 @@ def draw(edges: set[tuple[str, str]]) -> Figure:
     axes.set(xlim=(min(columns) - 0.6, max(columns) + 0.6), ylim=(layers - 0.5, -0.5))
     for first, second in sorted(edges):
         (x, y), (u, v) = place[first], place[second]
-        axes.add_patch(
-            FancyArrowPatch(
-                (x, y + 0.2), (u, v - 0.2), arrowstyle="-|>", mutation_scale=7, color="0.6", lw=0.8
-            )
-        )
+        arrow = {"arrowstyle": "-|>", "mutation_scale": 7, "color": "0.6", "lw": 0.8}
+        axes.add_patch(FancyArrowPatch((x, y + 0.2), (u, v - 0.2), **arrow))
     for box, (x, y) in place.items():
         style = {"boxstyle": "round,pad=0.3", "fc": COLOURS.get(box, "white"), "ec": "0.3", "lw": 0.8}
         axes.text(x, y, box, ha="center", va="center", fontsize=7, bbox=style)

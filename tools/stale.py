@@ -32,14 +32,10 @@ MORE = dict.fromkeys(["attack", "publish_machines", "publish_inside"], " config/
 
 def table() -> pd.DataFrame:
     """Name, why it is stale, and the command that publishes it."""
-    rows = [
-        (
-            name,
-            why,
-            f"{MAKES.get(name, '')}snakemake {name} --cores all --configfile config/paper.yaml{MORE.get(name, '')}",
-        )
-        for name, why in stale(Path("results/published")).items()
-    ]
+    rows = []
+    for name, why in stale(Path("results/published")).items():
+        command = f"snakemake {name} --cores all --configfile config/paper.yaml{MORE.get(name, '')}"
+        rows.append((name, why, MAKES.get(name, "") + command))
     return pd.DataFrame(rows, columns=["published", "why", "command"])
 
 

@@ -38,16 +38,8 @@ def page() -> str:
                 modulus = scale * complex(MIX.complex_modulus(omega, temperature))
                 norm = abs(modulus) * np.exp(SCATTER * random.standard_normal())
                 phase = np.angle(modulus) + PHASE_SCATTER * random.standard_normal() + omega * DELAY
-                fields = [
-                    specimen,
-                    "synthetic",
-                    f"{temperature:g}",
-                    f"{frequency:g}",
-                    f"{norm * 1e-9:.3f}",
-                    f"{phase:.4f}",
-                    "nn",
-                ]
-                lines.append(";".join(fields).replace(".", ","))
+                line = f"{specimen};synthetic;{temperature:g};{frequency:g};{norm * 1e-9:.3f};{phase:.4f};nn"
+                lines.append(line.replace(".", ","))
     return HEAD + "\n".join(lines) + "\n"
 
 

@@ -20,8 +20,16 @@ PHASE_SCATTER = np.radians(0.2)
 SEED = 11
 # Two faults, which the diagnosis is to find.
 DELAY = 0.8e-3  # s, by which the deformation is recorded late in every test
-ARTEFACT = {"specimen": "B", "temperature": 4, "frequency": 25.0}  # one gauge slips in this test alone
+ARTEFACT = "B", 4, 25.0  # specimen, degC, Hz: one gauge slips in this test alone
 ARTEFACT_PHASE, ARTEFACT_UNIFORMITY = np.radians(5.0), 6.4  # rad; deg, of which the standard allows 3
+QUALITY = {  # bounds, and how it is written
+    " Average micro-strain": ((92, 108), ".0f"),
+    " Load drift (%)": ((-1, 1), ".1f"),
+    " Load standard error (%)": ((0.4, 4), ".1f"),
+    " Average deformation drift (%)": ((-60, -10), ".1f"),
+    " Average deformation standard error (%)": ((1.5, 6), ".1f"),
+    " Deformation uniformity (%)": ((8, 24), ".1f"),
+}
 
 HEAD = """\
 Test Information
@@ -58,36 +66,23 @@ def _page(random: np.random.Generator, specimen: str, temperature: int) -> str:
     count = len(FREQUENCIES)
     measured = temperature + np.round(random.normal(0.0, 0.08, count), 1)
     omega = 2.0 * np.pi * np.array(FREQUENCIES)
-    modulus = SPECIMENS[specimen] * np.array(
-        [MIX.complex_modulus(one, at) for one, at in zip(omega, measured, strict=True)], complex
-    ).reshape(count)
+    modulus = SPECIMENS[specimen] * MIX.complex_modulus(omega, measured)
     norm = np.abs(modulus) * np.exp(SCATTER * random.standard_normal(count))
     phase = np.angle(modulus) + PHASE_SCATTER * random.standard_normal(count) + omega * DELAY
     uniformity = random.uniform(0.4, 1.6, count)
-    hit = (
-        (np.array(FREQUENCIES) == ARTEFACT["frequency"])
-        & (temperature == ARTEFACT["temperature"])
-        & (specimen == ARTEFACT["specimen"])
-    )
-    phase = np.where(hit, phase + ARTEFACT_PHASE, phase)
-    uniformity = np.where(hit, ARTEFACT_UNIFORMITY, uniformity)
+    if (specimen, temperature) == ARTEFACT[:2]:
+        hit = FREQUENCIES.index(ARTEFACT[2])
+        phase[hit] += ARTEFACT_PHASE
+        uniformity[hit] = ARTEFACT_UNIFORMITY
     rows = {
-        " Dynamic modulus (MPa)": [
-            f"{value * 1e-6:.0f}" if value > 1e9 else f"{value * 1e-6:.4g}" for value in norm
-        ],
-        " Phase angle (Degrees)": [f"{np.degrees(value):.2f}" for value in phase],
+        " Dynamic modulus (MPa)": [f"{value:{'.0f' if value > 1e3 else '.4g'}}" for value in norm * 1e-6],
+        " Phase angle (Degrees)": [f"{value:.2f}" for value in np.degrees(phase)],
         " Average temperature  (°C)": [f"{value:.1f}" for value in measured],
         " Average confining pressure  (kPa)": ["0.0"] * count,
-        " Average micro-strain": [f"{value:.0f}" for value in random.uniform(92, 108, count)],
-        " Load drift (%)": [f"{value:.1f}" for value in random.uniform(-1, 1, count)],
-        " Load standard error (%)": [f"{value:.1f}" for value in random.uniform(0.4, 4, count)],
-        " Average deformation drift (%)": [f"{value:.1f}" for value in random.uniform(-60, -10, count)],
-        " Average deformation standard error (%)": [
-            f"{value:.1f}" for value in random.uniform(1.5, 6, count)
-        ],
-        " Deformation uniformity (%)": [f"{value:.1f}" for value in random.uniform(8, 24, count)],
-        " Phase uniformity (Degrees)": [f"{value:.1f}" for value in uniformity],
     }
+    for label, (ends, form) in QUALITY.items():
+        rows[label] = [f"{value:{form}}" for value in random.uniform(*ends, count)]
+    rows[" Phase uniformity (Degrees)"] = [f"{value:.1f}" for value in uniformity]
     frequencies = ",".join(f"{value:g} Hz" for value in FREQUENCIES)
     head = HEAD.format(temperature=temperature, specimen=specimen, frequencies=frequencies)
     lines = [",".join([label, *values]) for label, values in rows.items()]
