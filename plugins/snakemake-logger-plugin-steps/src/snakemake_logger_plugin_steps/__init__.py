@@ -13,16 +13,9 @@ from dataclasses import dataclass, field
 from logging import ERROR, WARNING, LogRecord
 from typing import Any
 
+from rich import progress
 from rich.console import Console, Group
 from rich.live import Live
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 from rich.text import Text
 from snakemake.logging import ColorizingTextHandler
 from snakemake_interface_logger_plugins.base import LogHandlerBase
@@ -59,6 +52,10 @@ class Steps:
 class LogHandler(LogHandlerBase):
     """Snakemake calls `emit` with each of its records, in a thread of its own."""
 
+    # In place of Snakemake's own handler, which keeps the file.
+    writes_to_stream = has_filter = has_formatter = True
+    writes_to_file = needs_rulegraph = False
+
     def __post_init__(self) -> None:
         settings = self.common_settings
         stream = sys.stdout if settings.stdout else sys.stderr
@@ -71,16 +68,11 @@ class LogHandler(LogHandlerBase):
             file=stream, no_color=settings.nocolor or None, highlight=False, soft_wrap=True
         )
         self.steps = Steps()
-        self._progress = Progress(
-            TextColumn("steps"),
-            MofNCompleteColumn(),
-            BarColumn(),
-            TimeElapsedColumn(),
-            TextColumn("elapsed,"),
-            TimeRemainingColumn(),
-            TextColumn("left"),
-            console=self.console,
-        )
+        text = progress.TextColumn
+        columns = [text("steps"), progress.MofNCompleteColumn(), progress.BarColumn()]
+        elapsed, left = progress.TimeElapsedColumn(), progress.TimeRemainingColumn()
+        columns += [elapsed, text("elapsed,"), left, text("left")]
+        self._progress = progress.Progress(*columns, console=self.console)
         self._bar = self._progress.add_task("", total=None)
         self._live: Live | None = None
 
@@ -158,38 +150,10 @@ class LogHandler(LogHandlerBase):
         settings, plain = self.common_settings, self._plain
         if plain is not None and plain.formatter is None:
             quiet = settings.quiet or []
+            asked = settings.debug_dag, settings.verbose, settings.dryrun, settings.printshellcmds
             plain.setFormatter(DefaultFormatter(quiet, settings.show_failed_logs))
-            plain.addFilter(
-                DefaultFilter(
-                    quiet, settings.debug_dag, settings.verbose, settings.dryrun, settings.printshellcmds
-                )
-            )
+            plain.addFilter(DefaultFilter(quiet, *asked))
         return plain is not None and bool(plain.filter(record))
-
-    @property
-    def writes_to_stream(self) -> bool:
-        """In place of Snakemake's own handler."""
-        return True
-
-    @property
-    def writes_to_file(self) -> bool:
-        """That stays Snakemake's."""
-        return False
-
-    @property
-    def has_filter(self) -> bool:
-        """It filters itself."""
-        return True
-
-    @property
-    def has_formatter(self) -> bool:
-        """It formats itself."""
-        return True
-
-    @property
-    def needs_rulegraph(self) -> bool:
-        """No."""
-        return False
 
 
 def _numbers(jobs: Any) -> list[int]:
