@@ -87,20 +87,3 @@ rule rule_graph:
         "Draw which rule needs which: {output}"
     shell:
         "snakemake --snakefile {input.snakefile} --configfile {params.study} --nolock --rulegraph 2> {log} | {params.python} {input.tool} {output} >> {log} 2>&1"
-
-
-rule step_picture:
-    """How a step is made and checked, as a picture for docs/stepping.md."""
-    input:
-        tool=shipped("tools/step_picture.py"),
-    output:
-        "docs/stepping.svg",
-    log:
-        "<results>/logs/step_picture.log",
-    localrule: True
-    params:
-        python=sys.executable,
-    message:
-        "Draw how a step is made: {output}"
-    shell:
-        "{params.python} {input.tool} {output} > {log} 2>&1"
