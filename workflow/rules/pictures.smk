@@ -12,46 +12,6 @@ if STUDY["study"] == "paper":
             "cp {input} src/asphalt_nscd/diagnosis/simulation/specimen.h5"
 
 
-rule simulate_frames:
-    """One test that keeps what all spheres and bonds do in its last cycle."""
-    input:
-        compiled="<results>/compiled/simulate",
-        model=f"{model(FACETS)}.h5",
-        law=LAW,
-        code=code("simulate"),
-    output:
-        "<results>/frames/{sample}/T{temperature}/f{frequency}.h5",
-    log:
-        "<results>/logs/frames/{sample}/T{temperature}/f{frequency}.log",
-    params:
-        test=lambda wildcards: f"--temperature-c {wildcards.temperature} --frequency-hz {wildcards.frequency}",
-        amplitude=STUDY["test"]["amplitude_m"],
-    message:
-        "Test sample {wildcards.sample} and keep 12 instants of a cycle"
-    shell:
-        "asphalt-nscd simulate {input.model} --law {input.law} {params.test} --amplitude-m {params.amplitude} --frames 12 --output {output} > {log} 2>&1"
-
-
-rule specimen_picture:
-    """A specimen and the forces in its bonds, for docs/packings.md; of config/smoke.yaml. Needs VTK."""
-    input:
-        test=f"<results>/frames/{SAMPLES[0]}/T{TEMPERATURES[-1]}/f{FREQUENCIES[-1]}.h5",
-        tool=shipped("tools/picture.py"),
-        code=code("export"),
-    output:
-        "docs/specimen_forces.png",
-    log:
-        "<results>/logs/specimen_picture.log",
-    params:
-        series=lambda wildcards, input: input.test.removesuffix("h5") + "pvd",
-        python=sys.executable,
-    message:
-        "Draw a specimen and the forces in its bonds"
-    shell:
-        "bash -c 'asphalt-nscd export {input.test} --format vtk --output {params.series} && "
-        "{params.python} {input.tool} {params.series} --output {output}' > {log} 2>&1"
-
-
 rule first_page:
     """The report's first page as a picture for the README. Needs Chromium."""
     input:
