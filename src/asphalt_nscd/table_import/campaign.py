@@ -220,23 +220,23 @@ def _file(path: Path, notes: list[str], wanted: _Wanted) -> list[Part]:
 def _told_names(path: Path, sheets: list[Sheet], notes: list[str], wanted: _Wanted) -> list[Part]:
     """Tests of sheets; where names are not known, those that the user said what they hold are replaced by ours."""
     try:
-        return _of_sheets(path, sheets, notes, wanted)
+        return _parts_of_sheets(path, sheets, notes, wanted)
     except UnreadNames as error:
         if ours := named(sheets, wanted.columns):
             return _told_names(path, ours, notes, wanted._replace(columns={}))
         raise with_names(error, path, sheets) from None
 
 
-def _of_sheets(path: Path, sheets: Sequence[Sheet], notes: list[str], wanted: _Wanted) -> list[Part]:
+def _parts_of_sheets(path: Path, sheets: Sequence[Sheet], notes: list[str], wanted: _Wanted) -> list[Part]:
     """Tests of all sheets by one layout, or else of each sheet by its own; those without tests go into `notes`."""
     if layout := layout_of(sheets):
-        return _parts(path, layout, sheets, wanted)
+        return _parts_of_layout(path, layout, sheets, wanted)
     parts: list[Part] = []
     skipped: list[SkippedFile] = []
     for one in sheets:
         try:
             layout = layout_of([one])
-            parts += _parts(path, layout, [one], wanted) if layout else []
+            parts += _parts_of_layout(path, layout, [one], wanted) if layout else []
         except InputError as error:
             # It was meant to hold tests: passed over with a note, a test was lost and nobody saw it.
             if not isinstance(error, NotTests) and _names_tests(one.rows):
@@ -258,7 +258,7 @@ def _of_sheets(path: Path, sheets: Sequence[Sheet], notes: list[str], wanted: _W
     return parts
 
 
-def _parts(path: Path, layout: Layout, sheets: Sequence[Sheet], wanted: _Wanted) -> list[Part]:
+def _parts_of_layout(path: Path, layout: Layout, sheets: Sequence[Sheet], wanted: _Wanted) -> list[Part]:
     """A part for each block that `layout` reads; refuses a shear modulus, unless the user named the columns."""
     blocks = layout.read(sheets, wanted.columns)
     shear = next((name for block in blocks for name in block.cells.header if is_shear(name)), "")

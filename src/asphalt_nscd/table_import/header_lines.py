@@ -151,7 +151,7 @@ def _names(cells: list[str]) -> bool:
     return len(measured) > 1 and not any(map(NUMBER.fullmatch, cells))
 
 
-def _with_keys_below(names: list[str], cells: list[str]) -> list[str]:
+def _add_keys_below(names: list[str], cells: list[str]) -> list[str]:
     """Names of columns, with those of temperature, frequency and specimen that stand in `cells`, a line deeper."""
     if not _results(names):
         return names
@@ -181,7 +181,7 @@ def _stack(rows: list[Row]) -> _Stack | None:
     first, last = at, at + 1
     below: list[list[str]] = []
     if last < len(rows):
-        names = _with_keys_below(names, rows[last][1])
+        names = _add_keys_below(names, rows[last][1])
     while last < len(rows) and len(below) < MOST_LINES and _labels_below(rows[last][1], names):
         below.append(rows[last][1])
         last += 1

@@ -191,12 +191,12 @@ def _below(rows: list[Row], called: str) -> Iterator[_Matrix]:
 
 def _columns(sheets: Sequence[Sheet]) -> dict[str | None, list[_Matrix]]:
     """By sheet, tables with a column for each specimen, if those of a file give several quantities; else none."""
-    held = {sheet.name: list(_of_specimens(sheet.rows)) for sheet in sheets}
+    held = {sheet.name: list(_specimen_matrices(sheet.rows)) for sheet in sheets}
     several = len({name for own in held.values() for one in own for name in one.names}) > 1
     return held if several else {}
 
 
-def _of_specimens(rows: list[Row]) -> Iterator[_Matrix]:
+def _specimen_matrices(rows: list[Row]) -> Iterator[_Matrix]:
     """Rows of temperature and frequency below names of specimens, above which the quantity stands with its unit."""
     for at, (_, head) in enumerate(rows):
         quantities = [read_heading(cell).quantity for cell in head]

@@ -32,7 +32,7 @@ def is_shear(name: str) -> bool:
     >>> [is_shear(name) for name in ("|G*| (Pa)", "Complex Shear Modulus", "E* (MPa)", "Shear Strain")]
     [True, True, False, False]
     """
-    return bool(_SHEAR.search(name) or (_LETTER.search(name) and known(_as_of_a_mix(name)) is not None))
+    return bool(_SHEAR.search(name) or (_LETTER.search(name) and known(_mix_name(name)) is not None))
 
 
 def read_sweeps(path: Path) -> Table:
@@ -50,7 +50,7 @@ def read_sweeps(path: Path) -> Table:
         if not tables:
             raise refused[0]
     except InputError as error:
-        raise InputError(_of_shear(str(error), str(path), names)) from None
+        raise InputError(_refusal(str(error), str(path), names)) from None
     ours = dict(zip(COLUMNS, ("temperature_C", "frequency_Hz", "E_MPa", "phase_deg"), strict=True))
     joined: dict[str, Values] = {
         name: np.concatenate([table.numbers(of) for table in tables]) for name, of in ours.items()
@@ -64,13 +64,13 @@ def _renamed(rows: list[Row], names: dict[str, str]) -> list[Row]:
     for line, cells in rows:
         if any(_YOUNG.match(cell.strip("|")) and known(cell) for cell in cells):
             raise InputError(f", line {line}: names Young's modulus, and a binder's is in shear; {WANTED}.")
-        ours = [cell if number(cell) is not None else _as_of_a_mix(cell) for cell in cells]
+        ours = [cell if number(cell) is not None else _mix_name(cell) for cell in cells]
         names |= {new: old for new, old in zip(ours, cells, strict=True) if new != old}
         renamed.append((line, ours))
     return renamed
 
 
-def _as_of_a_mix(name: str) -> str:
+def _mix_name(name: str) -> str:
     """`E* (Pa)` for `G* (Pa)`, `Complex Modulus` for `Complex Shear Modulus`."""
     name = _LETTER.sub("E", _SHEAR.sub("", name))
     name = re.sub(r"\bang\b[.,]?\s*freq\w*\.?", "Angular frequency", name, flags=re.IGNORECASE)
@@ -94,19 +94,19 @@ def _blocks(sheet: Sheet) -> Iterator[Sheet]:
 def _tables(block: Sheet) -> Iterator[Table]:
     """Tests of a block as a table of a mix, each point a specimen of its own, so that none repeats another."""
     for one in rows_of_tests.read([block], {}):
-        read = understand(_with_points(attach_units(one.cells)), {"specimen": _POINT})
+        read = understand(_add_points(attach_units(one.cells)), {"specimen": _POINT})
         if read.form != "moduli":
             raise NotTests(f"{block.path}: no column of the phase; {WANTED}.")
         yield read.table
 
 
-def _with_points(cells: Cells) -> Cells:
+def _add_points(cells: Cells) -> Cells:
     rows = [(line, [*row, f"line {line}"]) for line, row in cells.rows]
     at = None if cells.at is None else [*cells.at, {}]
     return replace(cells, header=[*cells.header, _POINT], rows=rows, at=at)
 
 
-def _of_shear(said: str, path: str, names: dict[str, str]) -> str:
+def _refusal(said: str, path: str, names: dict[str, str]) -> str:
     """A refusal in the names of the file; options of other commands give way to what a table of a binder needs."""
     said = said.removeprefix(path).removeprefix(": ").replace(f", {_POINT})", ")")
     for ours, theirs in names.items():

@@ -102,8 +102,8 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None, mix: str |
             agreed += told
             copies |= same
     kept |= _further(columns, form)
-    cells, of_mix = _of_one_mix(cells, kept, mix)
-    cells, without_phase = _with_phase(cells, kept)
+    cells, of_mix = _choose_mix(cells, kept, mix)
+    cells, without_phase = _rows_with_phase(cells, kept)
     notes = [*cells.notes, *agreed]
     # Over all columns: 1,234 alone can be read in two ways, and another column settles it.
     numeric = [place for name, (place, _) in kept.items() if name not in (*TEXTS, "mix")]
@@ -202,7 +202,7 @@ def names_force_or_modulus(cell: str) -> bool:
     return column is not None and column.quantity in ("E_MPa", "F0_N") and column.unit is not None
 
 
-def _of_one_mix(cells: Cells, kept: Mapping[str, Place], wanted: str | None) -> tuple[Cells, str]:
+def _choose_mix(cells: Cells, kept: Mapping[str, Place], wanted: str | None) -> tuple[Cells, str]:
     """The rows of the mix wanted, or of the only one in the table, and its name."""
     if "mix" not in kept:
         return cells, ""
@@ -228,7 +228,7 @@ def _of_one_mix(cells: Cells, kept: Mapping[str, Place], wanted: str | None) -> 
     return cells, mixes[0]
 
 
-def _with_phase(cells: Cells, kept: Mapping[str, Place]) -> tuple[Cells, str]:
+def _rows_with_phase(cells: Cells, kept: Mapping[str, Place]) -> tuple[Cells, str]:
     """The rows that have a phase, and a sentence on the few that have none; all of them where those are not few."""
     if "phase_deg" not in kept:
         return cells, ""
