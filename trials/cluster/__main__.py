@@ -19,12 +19,12 @@ from pathlib import Path
 import pandas as pd
 import yaml
 from comparison import differences, results
-from workspace import ROOT, Workspace
 
 from asphalt_nscd.files.store import provenance, write_json, write_table
 from cluster.cost import cost
 from cluster.node import slurm, why_not
 
+ROOT = Path(__file__).parents[2]
 OUTPUT = Path("results/cluster")
 # squeue, for there is no accounting; and looked at more often than a real cluster would like.
 ON_ONE_NODE = (
@@ -48,19 +48,18 @@ def main() -> int:
         print(f"skipped: {reason}.")
         return 0
     name = yaml.safe_load(given.configfile.read_text(encoding="utf-8"))["study"]
-    Workspace.configuration = str(given.configfile)
     folder = Path(tempfile.mkdtemp(prefix="cluster-"))
     different: list[str] = []
     try:
-        here = given.finished or _run_here(Workspace(folder / "here")) / "results" / name
-        there = folder / "there/results" / name
+        here = given.finished or _run_here(_workspace(folder / "here"), given.configfile) / "results" / name
+        there = _workspace(folder / "there")
         with slurm():
             began = time.monotonic()
-            _disturbed(Workspace(folder / "there"))
-            rows = cost(there)
+            _disturbed(there, given.configfile)
+            rows = cost(there / "results" / name)
         rows["seconds from first to last"] = round(time.monotonic() - began)
-        different = differences(here, there)
-        rows["files of results compared"] = len(results(there))
+        different = differences(here, there / "results" / name)
+        rows["files of results compared"] = len(results(there / "results" / name))
         rows["files that differ from a run without Slurm"] = len(different)
         table = pd.DataFrame(rows.items(), columns=["what", name])
         write_table(OUTPUT / "cluster.csv", table)
@@ -76,16 +75,27 @@ def main() -> int:
             shutil.rmtree(folder, ignore_errors=True)
 
 
-def _run_here(workspace: Workspace) -> Path:
-    if workspace.alone("--quiet", "all", "--cores", "2", stderr=None).returncode:
+def _run_here(folder: Path, config: Path) -> Path:
+    if subprocess.run(_snakemake(config, "--cores", "2"), cwd=folder, stdout=subprocess.DEVNULL).returncode:
         raise SystemExit("error: the study failed without Slurm.")
-    return workspace.folder
+    return folder
 
 
-def _disturbed(workspace: Workspace) -> None:
+def _workspace(folder: Path) -> Path:
+    for name in ("config", "data", "profiles"):
+        shutil.copytree(ROOT / name, folder / name)
+    return folder
+
+
+def _snakemake(config: Path, *arguments: str) -> list[str]:
+    words = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
+    return [*words, "--configfile", str(config), "--quiet", "all", *arguments]
+
+
+def _disturbed(folder: Path, config: Path) -> None:
     """Run the study through Slurm, kill one job and preempt another while they run."""
     waiting = dict(DISTURBANCES)
-    with workspace.start("--quiet", "all", *ON_ONE_NODE, stdout=None, stderr=None) as process:
+    with subprocess.Popen(_snakemake(config, *ON_ONE_NODE), cwd=folder) as process:
         try:
             while process.poll() is None:
                 for number, comment in _running():
@@ -98,8 +108,7 @@ def _disturbed(workspace: Workspace) -> None:
         finally:
             process.kill()
     if process.returncode:
-        logs = [*workspace.folder.glob(".snakemake/slurm_logs/**/*.log")]
-        logs += [*workspace.folder.glob(".snakemake/log/*.log")]
+        logs = [*folder.rglob(".snakemake/slurm_logs/**/*.log"), *folder.rglob(".snakemake/log/*.log")]
         print(*(f"{path}:\n{path.read_text(errors='replace')[-3000:]}" for path in logs), sep="\n")
         raise SystemExit(f"error: snakemake ended with {process.returncode}.")
     if waiting:
@@ -108,8 +117,12 @@ def _disturbed(workspace: Workspace) -> None:
 
 def _running() -> list[tuple[str, str]]:
     """Number and comment of jobs that run: the comment names the group."""
-    command = ["squeue", "--noheader", "--states=RUNNING", "--format=%i %k"]
-    listed = subprocess.run(command, capture_output=True, text=True, check=True)
+    listed = subprocess.run(
+        ["squeue", "--noheader", "--states=RUNNING", "--format=%i %k"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     return [(line.split()[0], line.partition(" ")[2]) for line in listed.stdout.splitlines()]
 
 

@@ -25,7 +25,6 @@ def account(said: str, steps: list[float]) -> dict[str, float]:
     """
     jobs = [dict(re.findall(r"(\w+)=(\S+)", block)) for block in said.split("\n\n") if "JobId" in block]
     done = [job for job in jobs if job["JobState"] == "COMPLETED"]
-    killed = [job for job in jobs if job["JobState"] == "CANCELLED"]
     held = sum(_seconds(job["StartTime"], job["EndTime"]) * int(job["NumCPUs"]) for job in done)
     waited = [_seconds(job["SubmitTime"], job["StartTime"]) for job in done if job["Restarts"] == "0"]
     return {
@@ -36,7 +35,9 @@ def account(said: str, steps: list[float]) -> dict[str, float]:
         "own cost, percent of what is held": round(100.0 * (held - sum(steps)) / held, 1),
         "own cost, core seconds a job": round((held - sum(steps)) / len(done), 1),
         "seconds in the queue, a job": round(sum(waited) / len(waited), 1),
-        "jobs killed in mid-run, made again by Snakemake": len(killed),
+        "jobs killed in mid-run, made again by Snakemake": sum(
+            job["JobState"] == "CANCELLED" for job in jobs
+        ),
         "jobs preempted in mid-run, made again by Slurm": sum(job["Restarts"] != "0" for job in jobs),
     }
 

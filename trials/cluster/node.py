@@ -75,25 +75,38 @@ def slurm() -> Iterator[Path]:
     daemons: list[subprocess.Popen[bytes]] = []
 
     def start(*command: str) -> None:
-        environment = os.environ | {"PATH": _path()}
         with (folder / f"{command[0]}.out").open("wb") as out:
-            daemons.append(subprocess.Popen(command, stdout=out, stderr=out, env=environment))
+            daemons.append(
+                subprocess.Popen(command, stdout=out, stderr=out, env=os.environ | {"PATH": _path()})
+            )
 
     key = folder / "munge.key"
     key.write_bytes(os.urandom(1024))
     key.chmod(0o600)
     memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 2**20
-    machine = {"host": socket.gethostname(), "cpus": os.cpu_count(), "memory": int(0.9 * memory)}
-    text = TEMPLATE.format(process=os.getpid(), folder=folder, **machine)
+    text = TEMPLATE.format(
+        process=os.getpid(),
+        folder=folder,
+        host=socket.gethostname(),
+        cpus=os.cpu_count(),
+        memory=int(0.9 * memory),
+    )
     CONFIGURATION.parent.mkdir(parents=True, exist_ok=True)
     if CONFIGURATION.exists() and _left_over():
         CONFIGURATION.unlink()
     try:
         with CONFIGURATION.open("x") as file:
             file.write(text)
-        files = [f"--{kind}-file={folder}/munged.{kind}" for kind in ("pid", "log", "seed")]
-        files += [f"--key-file={key}", f"--socket={folder}/munge.socket"]
-        start("munged", "--foreground", "--force", *files)
+        start(
+            "munged",
+            "--foreground",
+            "--force",
+            f"--key-file={key}",
+            f"--socket={folder}/munge.socket",
+            f"--pid-file={folder}/munged.pid",
+            f"--log-file={folder}/munged.log",
+            f"--seed-file={folder}/munged.seed",
+        )
         _wait(lambda: (folder / "munge.socket").exists(), "munged", folder)
         start("slurmctld", "-D")
         start("slurmd", "-D")
