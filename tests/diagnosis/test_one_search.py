@@ -57,11 +57,17 @@ def begun_with(**effects: object) -> fit_beside.State:
 
 
 @cache
+def limits_of(state: fit_beside.State, survey: one_search.Survey) -> tuple:
+    """Limits, causes without one, and what else `detection_limits` gives."""
+    threshold = sizes.chance_threshold(state, survey, 500, np.random.default_rng(0))
+    return sizes.detection_limits(state, survey, threshold)
+
+
 def limits_with(**effects: object) -> tuple[one_search.Survey, dict, list]:
     """What it shows of each cause, limits, and causes without one."""
     state = begun_with(**effects)
     survey = one_search.survey(state, CATALOGUE)
-    return survey, *sizes.detection_limits(state, survey, 500, np.random.default_rng(0))[:2]
+    return survey, *limits_of(state, survey)[:2]
 
 
 def climbed(observed: Observations) -> tuple[list, fit_beside.State, one_search.Survey]:
@@ -181,7 +187,7 @@ def test_the_limit_of_a_second_process_counts_wide_ones(monkeypatch):
         shapes = tuple(shape for shape in every if shape[-1] in exponents)
         monkeypatch.setattr(type(SECOND), "shapes", lambda self, observed: shapes)
         surveyed = one_search.survey(begun, CATALOGUE)
-        limits = sizes.detection_limits(begun, surveyed, 500, np.random.default_rng(0))[0]
+        limits = limits_of(begun, surveyed)[0]
         return limits["secondary_process", None]
 
     narrow, wide, of_all = (limit(*exponents) for exponents in ((0.8,), (0.5,), (0.5, 0.65, 0.8)))
@@ -282,7 +288,7 @@ def test_a_size_that_rounding_cannot_bear_ends_the_estimate_and_no_more():
 def test_the_limit_of_a_cause_in_the_fit_is_its_standard_error_times_what_chance_reaches():
     _, state, survey = climbed(table(delay=6e-4))
     (candidate,) = (c for c in state.fitted.active if c.cause.name == "channel_delay")
-    found, _, _ = sizes.detection_limits(state, survey, 500, np.random.default_rng(0))
+    found, _, _ = limits_of(state, survey)
     own = fit_beside.taken_amplitude(state, candidate).std_error * candidate.typical[0]
     assert 4.0 < found[candidate.key] / own < 7.0
 

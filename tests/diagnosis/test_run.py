@@ -18,6 +18,7 @@ from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observa
 from asphalt_nscd.diagnosis.record.reading import reading
 from asphalt_nscd.diagnosis.record.report import physical_limits
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
+from asphalt_nscd.diagnosis.search import limits
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
 from asphalt_nscd.diagnosis.search.ladder import Ladder
 from asphalt_nscd.diagnosis.words.answer import rows
@@ -138,7 +139,8 @@ def test_estimates_that_spread_further_than_their_errors_widen_the_limits():
     assert found.ladder.estimates_spread == 1.0
 
 
-def test_what_is_named_without_the_doubtful_tests():
+def test_what_is_named_without_the_doubtful_tests(monkeypatch):
+    monkeypatch.setattr(limits, "detection_limits", None)  # names alone are asked for
     found = diagnose(table(3, lambda e, s, t, w: e * np.exp(1.5e-4j * w)), draws=500)
     assert run.second_opinions(found, None, 0)["without_doubtful"] is None  # none is doubtful
     least = int(np.ceil(run.MATTERING * found.observed.size))

@@ -13,7 +13,7 @@ from scipy.special import fdtrc
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.causes._cause import Cause, Setting
-from asphalt_nscd.diagnosis.criteria import CONFIDENCE, DOUBTED, NOTICED
+from asphalt_nscd.diagnosis.criteria import CONFIDENCE, DOUBTED, NOTICED, USUAL_THRESHOLD
 from asphalt_nscd.diagnosis.model import chance, fit_beside
 from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
@@ -56,10 +56,9 @@ class Remaining:
 class Ladder:
     """What was climbed.
 
-    `withdrawn`: interval holds zero; `unseen`: not shown by these tests; `alike`: not told apart. By cause and place:
-    `limits` (amplitude that would show), `estimates` (with standard error), `hangs_on` (what must not be left out).
-    `discrepancy`: sizes in units of the scatter. `odd`: faults of one place, which have no rung; `smallest`: such
-    faults at their detection limits; `torn`: isotherms [degC]; `fitted`: the last fit, its causes those of the rungs.
+    `withdrawn`: interval holds zero. `estimates` (with standard error) by cause and place. `discrepancy`: sizes in
+    units of the scatter. `odd`: faults of one place, which have no rung. `end` and `survey`: the last state, and what
+    causes would be in it; `threshold`: score that chance alone seldom passes there.
     """
 
     joint: Joint
@@ -67,18 +66,14 @@ class Ladder:
     rungs: list[Rung] = field(default_factory=list)
     withdrawn: list[Rung] = field(default_factory=list)
     remaining: Remaining | None = None
-    limits: dict[tuple, float] = field(default_factory=dict)
-    unseen: list[Candidate] = field(default_factory=list)
-    alike: list[tuple[Candidate, Candidate]] = field(default_factory=list)
     discrepancy: dict[Process, float] = field(default_factory=dict)
-    hangs_on: dict[tuple, list[str]] = field(default_factory=dict)
     estimates: dict[tuple, tuple[float, float]] = field(default_factory=dict)
     odd: list[Odd] = field(default_factory=list)
-    torn: list[float] = field(default_factory=list)
-    smallest: list[Odd] = field(default_factory=list)
     doubts: dict[Key, list[str]] = field(default_factory=dict)
     at_highest: OneFrequency | None = None
     end: fit_beside.State | None = None
+    survey: one_search.Survey | None = None
+    threshold: float = USUAL_THRESHOLD
 
     @cached_property
     def fitted(self) -> Fitted:
@@ -88,6 +83,49 @@ class Ladder:
         at = self.end.fitted
         named = tuple(one for one in at.active if not one.cause.told)
         return at if named == at.active else self.end.wide.linearise(at.law, at.scales, named)
+
+    # What follows costs as much as the search: a second opinion, which asks for names alone, goes without.
+    @cached_property
+    def limits(self) -> dict[tuple, float]:
+        """Amplitude that would show, by cause and place."""
+        return self._detection_limits[0]
+
+    @property
+    def unseen(self) -> list[Candidate]:
+        """Causes that these tests show at no size."""
+        return self._detection_limits[1]
+
+    @property
+    def alike(self) -> list[tuple[Candidate, Candidate]]:
+        """Causes that these tests do not tell apart."""
+        return self._detection_limits[2]
+
+    @cached_property
+    def _detection_limits(
+        self,
+    ) -> tuple[dict[tuple, float], list[Candidate], list[tuple[Candidate, Candidate]]]:
+        if self.end is None or self.survey is None:
+            return {}, [], []
+        return limits.detection_limits(self.end, self.survey.part(told=False), self.threshold)
+
+    @cached_property
+    def smallest(self) -> list[Odd]:
+        """Faults of one specimen or isotherm at their detection limits."""
+        if self.end is None or self.survey is None:
+            return []
+        found = [Odd(*one) for one in limits.place_limits(self.end, self.survey.part(told=True))]
+        return [one for one in found if not isinstance(one.candidate.place, Setting)]
+
+    @cached_property
+    def torn(self) -> list[float]:
+        """Isotherms [degC] that follow no one law with the others."""
+        return [] if self.end is None else torn_isotherms(self.end)
+
+    @cached_property
+    def hangs_on(self) -> dict[tuple, list[str]]:
+        """What must not be left out for a name to be found, by cause and place."""
+        end = self.end
+        return {} if end is None else {one.key: one_search.hangs_on(end, one) for one in self.named}
 
     @property
     def named(self) -> list[Candidate]:
@@ -161,12 +199,8 @@ def climb(begun: fit_beside.State, catalogue: Sequence[Cause], draws: int, seed:
         found, end, survey = one_search.again(begun, found, catalogue)
         _take(ladder, begun, found, end, survey)
     ladder.doubts = find_doubts(end, ladder.named) | ladder.doubts
-    ladder.hangs_on = {candidate.key: one_search.hangs_on(end, candidate) for candidate in ladder.named}
-    named, placed = survey.part(told=False), survey.part(told=True)
-    ladder.limits, ladder.unseen, ladder.alike = limits.detection_limits(end, named, draws, random)
-    smallest = [Odd(*one) for one in limits.place_limits(end, placed)]
-    ladder.smallest = [one for one in smallest if not isinstance(one.candidate.place, Setting)]
-    ladder.torn = torn_isotherms(end)
+    ladder.survey = survey
+    ladder.threshold = limits.chance_threshold(end, survey.part(told=False), draws, random)
     sizes = np.sqrt(end.hidden).tolist()
     ladder.discrepancy = {
         one: size for one, size in zip(end.model.processes.described, sizes, strict=True) if size > 0.0

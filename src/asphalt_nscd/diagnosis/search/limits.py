@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import logit
 
+from asphalt_nscd.diagnosis.causes._cause import Setting
 from asphalt_nscd.diagnosis.criteria import (
     ALPHA_PER_STEP,
     HIDES,
@@ -54,8 +55,8 @@ TAKEN_UP = 1.6
 def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]]:
     """Amplitude and standard error, in physical units, of every cause at every place.
 
-    Of a cause that is in the fit, and of each other as if it were the next one. Of several shapes, the one that the
-    table sees best.
+    Of a cause that is in the fit, and of each other that is told, as if it were the next one. Of several shapes, the
+    one that the table sees best.
     """
     out: dict[tuple, tuple[float, float]] = {}
     for active in state.fitted.active:
@@ -63,6 +64,9 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
         out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
     best: dict[tuple, int] = {}
     for k, candidate in enumerate(surveyed.candidates):
+        # Of faults of one place those of a frequency alone are told that are not in the fit (`told.odd_frequency`).
+        if candidate.cause.told and not isinstance(candidate.place, Setting):
+            continue
         other = best.setdefault(candidate.key, k)
         if surveyed.estimates[k].std_error < surveyed.estimates[other].std_error:
             best[candidate.key] = k
@@ -103,19 +107,22 @@ def _named_from(state: State, surveyed: Survey, k: int, threshold: float) -> flo
     return amplitude
 
 
+def chance_threshold(state: State, surveyed: Survey, draws: int, random: np.random.Generator) -> float:
+    """Score that the largest of a survey passes by chance in few of `draws` tables; a usual one of an empty survey."""
+    if not surveyed.candidates:
+        return USUAL_THRESHOLD
+    return float(np.quantile(largest_by_chance(state, surveyed, draws, random), 1.0 - ALPHA_PER_STEP))
+
+
 def detection_limits(
-    state: State, surveyed: Survey, draws: int, random: np.random.Generator
+    state: State, surveyed: Survey, threshold: float
 ) -> tuple[dict[tuple, float], list[Candidate], list[tuple[Candidate, Candidate]]]:
     """Limits beside this table's discrepancy by cause and place, causes never seen in it, and pairs that look alike."""
     sizes: dict[tuple, float] = {}
     unseen: list[Candidate] = []
     alike: list[tuple[Candidate, Candidate]] = []
     taken_up: set[tuple] = set()
-    threshold = USUAL_THRESHOLD
     if surveyed.candidates:
-        threshold = float(
-            np.quantile(largest_by_chance(state, surveyed, draws, random), 1.0 - ALPHA_PER_STEP)
-        )
         correlation, errors = likelihood.correlation(state.model, surveyed.pointing, state.variances)
         # A cause with shapes of its own must be carried by the whole table: no size says that beside a discrepancy.
         alone = bool((state.hidden < HIDES**2).all())
