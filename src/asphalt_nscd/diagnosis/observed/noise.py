@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg.lapack import dpotrf, dtrtrs
 
 from asphalt_nscd.diagnosis.observed.observations import Complex, Vector
 
@@ -55,8 +56,9 @@ class Noise:
         white = np.concatenate([self._whitened(0, values.real), self._whitened(1, values.imag)])
         if self.discrepancy is None:
             return white
-        taken, _ = self._whitened_discrepancy
-        return white - taken @ (taken.T @ white)
+        factor, lower, lower_and_one = self._whitened_discrepancy
+        half = dtrtrs(lower, factor.T @ white, lower=1)[0]
+        return white - factor @ dtrtrs(lower_and_one, half, lower=1, trans=1)[0]
 
     def _whitened(self, part: int, values: NDArray) -> NDArray:
         """Values divided by the symmetric root of a variance and a share common to each block."""
@@ -78,19 +80,24 @@ class Noise:
         return out
 
     @cached_property
-    def _whitened_discrepancy(self) -> tuple[NDArray, Vector]:
-        """T (2n, q) and s^2 (q,): with F the discrepancy's factor whitened by the scatter alone and s its singular
-        values, 1 - T T^T is the inverse root of 1 + F F^T.
+    def _whitened_discrepancy(self) -> tuple[NDArray, NDArray, NDArray]:
+        """F (2n, q), L and 1 + L (q, q): F is the discrepancy's factor in units of the scatter, L L^T = 1 + F^T F.
+
+        M = 1 - F (1 + L)^-T L^-1 F^T is an inverse root: M^T M = (1 + F F^T)^-1. It needs no eigenvectors.
         """
         assert self.discrepancy is not None
         modulus, phase = np.split(self.discrepancy, 2)
         factor = np.concatenate([self._whitened(0, modulus), self._whitened(1, phase)])
-        square, vector = np.linalg.eigh(factor.T @ factor)
-        # rounding may leave eigenvalues of a Gram matrix below zero
-        square = np.maximum(square, 0.0)
-        root = np.sqrt(1.0 + square)
-        # (1 - 1/root)/square, without the difference of near numbers where the square is small.
-        return factor @ (vector / np.sqrt(root * (1.0 + root))), square
+        at = np.diag_indices(factor.shape[1])
+        gram = factor.T @ factor
+        gram[at] += 1.0
+        # Transposed, for LAPACK wants columns: the Gram matrix is symmetric, and nothing is copied.
+        lower, failed = dpotrf(gram.T, lower=1, overwrite_a=1)
+        if failed:
+            raise np.linalg.LinAlgError("no discrepancy of finite size")
+        lower_and_one = lower.copy(order="F")
+        lower_and_one[at] += 1.0
+        return factor, lower, lower_and_one
 
     @cached_property
     def log_determinant(self) -> float:
@@ -100,4 +107,4 @@ class Noise:
             + float(np.log1p(np.bincount(self.block, (shared / within) ** 2)).sum())
             for within, shared in zip(self.within, self.shared, strict=True)
         )
-        return own + float(np.log1p(self._whitened_discrepancy[1]).sum())
+        return own + 2.0 * float(np.log(np.diag(self._whitened_discrepancy[1])).sum())
