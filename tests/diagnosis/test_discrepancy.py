@@ -10,6 +10,7 @@ import pytest
 from scipy.optimize import approx_fprime
 
 from asphalt_nscd.diagnosis.model import discrepancy, likelihood
+from asphalt_nscd.diagnosis.model.arrowhead import Arrowhead
 from asphalt_nscd.diagnosis.model.discrepancy import Process, Processes
 from asphalt_nscd.diagnosis.model.likelihood import Direction, Reduced
 from asphalt_nscd.diagnosis.observed.noise import Noise
@@ -89,7 +90,8 @@ def small(random) -> tuple[Reduced, Direction]:
         np.array([0.5, 0.1, 0.3, 1.0]),
         np.array([np.inf, 0.4, np.inf, 0.6]),
     )
-    model = Reduced(found, u.T @ u, (u.T @ y)[:, 0])
+    whole = Arrowhead(u.T @ u, np.zeros((0, COLUMNS)), np.full(COLUMNS, -1))
+    model = Reduced(found, whole, (u.T @ y)[:, 0])
     return model, Direction(u.T @ d, d.T @ d, (d.T @ y)[:, 0])
 
 

@@ -107,6 +107,30 @@ def test_sizes_follow_the_table(kind):
     )  # drawn to the usual size by its prior
 
 
+@pytest.mark.parametrize("few", [False, True])
+def test_what_reaches_one_isotherm_alone_has_its_number(few):
+    """Also where two tests of the last isotherm are left, of two specimens that another one has each."""
+    whole = table(0)
+    last, other = whole.isotherm == whole.isotherms[-1], whole.isotherms[whole.specimen % 3]
+    at_one = (whole.isotherm == other) | (whole.specimen > 1)
+    kept = np.where(last, (whole.frequency == whole.frequencies[0]) & (whole.specimen < 2), at_one)
+    observed = whole.subset(np.flatnonzero(kept)) if few else whole
+    found = laboratory.processes(*fitted(observed))
+    kinds = np.array([one.kind for one in found.described])[found.block]
+    place = np.tile(observed.isotherm, 2)
+    held = observed.held_isotherms
+    assert held.size == 6 - few
+    reached = np.array([found.factor[place == t].any(axis=0) for t in held])
+    alone = np.where(reached.sum(axis=0) == 1, reached.argmax(axis=0), -1)
+    assert (found.isotherm == alone).all()
+    if not few:
+        assert set(kinds[alone < 0]) == {"spectrum", "specimen", "specimen times", "all"}
+    mixed = (
+        (found.isotherm >= 0) & (found.isotherm[:, None] >= 0) & (found.isotherm[:, None] != found.isotherm)
+    )
+    assert not found.gram[mixed].any()
+
+
 def test_the_scatter_holds_every_effect_once():
     """Two tests of one mounting share its level, its phase and its temperature; of one isotherm, the temperature."""
     joint, fit = fitted(table(3))

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import compress
 
 import numpy as np
@@ -75,6 +76,23 @@ class Processes:
             self.usual[kept],
             self.spread[kept],
         )
+
+    @cached_property
+    def gram(self) -> NDArray:
+        """Products (q, q) of the columns of `factor`: they outlast many laws."""
+        return np.asarray(self.factor.T @ self.factor)
+
+    @cached_property
+    def isotherm(self) -> NDArray[np.int64]:
+        """Number (q,) of the isotherm whose processes alone a column overlaps, -1 of one that no or several ones do.
+
+        No column reaches two numbers: what isotherms share is a specimen's or of all tests.
+        """
+        isotherms = [np.nan if one.isotherm is None else one.isotherm for one in self.described]
+        at = np.array(isotherms)[self.block]
+        touched = [(self.gram[:, at == t] != 0.0).any(axis=1) for t in np.unique(at[np.isfinite(at)])]
+        reached = np.array(touched, bool).reshape(-1, at.size)
+        return np.where(reached.sum(axis=0) == 1, np.arange(len(touched)) @ reached, -1)
 
     @property
     def known(self) -> NDArray[np.bool_]:

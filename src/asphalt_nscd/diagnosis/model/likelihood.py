@@ -13,9 +13,9 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_triangular
-from scipy.linalg.lapack import dpotrf, dpotrs, dtrtri
+from scipy.linalg.lapack import dtrtrs
 
+from asphalt_nscd.diagnosis.model.arrowhead import Arrowhead, Factor
 from asphalt_nscd.diagnosis.model.discrepancy import LEAST, MOST, Processes
 from asphalt_nscd.diagnosis.model.joint import Fitted
 
@@ -31,13 +31,13 @@ MOST_KEPT = 8  # factors of a model, of megabytes each
 
 @dataclass(frozen=True)
 class Reduced:
-    """Scatter and law taken out, with A = V0^-1 and data y: `gram` (q, q) is U^T A U, `along` (q,) is U^T A y.
+    """Scatter and law taken out, with A = V0^-1 and data y: `gram` is U^T A U (q, q), `along` (q,) is U^T A y.
 
     `factors` are those at variances where many estimates begin, whatever the data and the cause.
     """
 
     processes: Processes
-    gram: NDArray
+    gram: Arrowhead
     along: Vector
     factors: dict[bytes, Factor] = field(default_factory=dict)
 
@@ -55,47 +55,9 @@ class Reduced:
 
     def selected(self, kept: NDArray[np.bool_]) -> Reduced:
         """The same with some of the processes (m,) alone."""
-        columns = kept[self.processes.block]
-        return Reduced(
-            self.processes.selected(kept), self.gram[np.ix_(columns, columns)], self.along[columns]
-        )
-
-
-class Factor:
-    """Lower Cholesky factor of B = 1 + S G S at roots of variances (q,): S^-1 (1 - B^-1) S^-1 is what is left of G.
-
-    It `failed` where there is none: rounding, where a size is absurd.
-    """
-
-    def __init__(self, gram: NDArray, s: Vector) -> None:
-        # Transposed, for LAPACK wants columns: the Gram matrix is symmetric, and nothing is copied.
-        whole = (s[:, None] * gram * s).T
-        whole[np.diag_indices(s.size)] += 1.0
-        self.s = s
-        self.lower, failed = dpotrf(whole, lower=1, overwrite_a=1)
-        self.failed = bool(failed)
-
-    def solve(self, right: NDArray) -> NDArray:
-        """B^-1 times columns (q, k)."""
-        return dpotrs(self.lower, right, lower=1)[0]
-
-    def halve(self, right: NDArray) -> NDArray:
-        """L^-1 times columns (q, ...), with L L^T = B."""
-        return solve_triangular(self.lower, right, lower=True, check_finite=False)
-
-    @cached_property
-    def _inverse(self) -> NDArray:
-        return dtrtri(self.lower, lower=1)[0]
-
-    @cached_property
-    def diagonal(self) -> Vector:
-        """Diagonal (q,) of what is left, from the triangular inverse: all of it would cost several times as much."""
-        return (1.0 - np.einsum("ij,ij->j", self._inverse, self._inverse)) / self.s**2
-
-    @cached_property
-    def left(self) -> NDArray:
-        """What is left (q, q)."""
-        return (np.eye(self.s.size) - self._inverse.T @ self._inverse) / self.s[:, None] / self.s
+        found, columns = self.processes.selected(kept), kept[self.processes.block]
+        followed = self.gram.followed[:, columns]
+        return Reduced(found, Arrowhead(found.gram, followed, found.isotherm), self.along[columns])
 
 
 @dataclass(frozen=True)
@@ -133,14 +95,15 @@ class Estimate:
 
 def reduce(found: Processes, fitted: Fitted) -> Reduced:
     """The model linearised at a fit, whitened by the scatter alone and reduced to all that an estimate needs."""
-    gram = _projected(fitted, found.factor, found.factor)
-    return Reduced(found, 0.5 * (gram + gram.T), _data(fitted, found.factor))
+    followed, _ = dtrtrs(np.linalg.cholesky(fitted.precision), fitted.jacobian.T @ found.factor, lower=1)
+    return Reduced(found, Arrowhead(found.gram, followed, found.isotherm), _data(fitted, found.factor))
 
 
 def directions(model: Reduced, fitted: Fitted, d: NDArray) -> Direction:
     """Directions (2n, k) of causes, whitened and reduced as the model is."""
+    factor = model.processes.factor
     return Direction(
-        _projected(fitted, model.processes.factor, d), _projected(fitted, d, d), _data(fitted, d)
+        factor.T @ d - _followed(fitted, factor, d), d.T @ d - _followed(fitted, d, d), _data(fitted, d)
     )
 
 
@@ -152,11 +115,11 @@ def moved(model: Reduced, cause: Direction, amount: float) -> tuple[Reduced, Dir
     )
 
 
-def _projected(fitted: Fitted, left: NDArray, right: NDArray) -> NDArray:
-    """left^T A right: what the law may follow is taken out."""
+def _followed(fitted: Fitted, left: NDArray, right: NDArray) -> NDArray:
+    """left^T (1 - A) right: what the law may follow."""
     j = fitted.jacobian
     # A itself would be 2n x 2n: only its products with few columns are formed.
-    return left.T @ right - (left.T @ j) @ np.linalg.solve(fitted.precision, j.T @ right)
+    return (left.T @ j) @ np.linalg.solve(fitted.precision, j.T @ right)
 
 
 def _data(fitted: Fitted, left: NDArray) -> Vector:
@@ -306,7 +269,7 @@ def _point(model: Reduced, cause: Direction | None, log_v: Vector, factor: Facto
     right = data[:, None] if cause is None else np.column_stack([data, s * cause.cross[:, 0]])
     solved = factor.solve(right)
     pull, sensed = solved[:, 0] / s, solved[:, -1] / s
-    misfit = 2.0 * float(np.log(np.diag(factor.lower)).sum()) - float(data @ solved[:, 0]) + found.prior(v)[0]
+    misfit = factor.log_determinant - float(data @ solved[:, 0]) + found.prior(v)[0]
     if cause is None:
         return _Point(misfit, misfit, found, v, factor, pull, sensed)
     information = max(float(cause.own[0, 0] - right[:, 1] @ solved[:, 1]), 1e-12)
@@ -331,5 +294,5 @@ def weighed(model: Reduced, all_directions: Direction, variances: Vector) -> tup
     """Information (k, k) and score (k,) of the amplitudes of k directions, law and discrepancy integrated out."""
     factor = model.kept_factor(variances)
     half = factor.halve(factor.s[:, None] * all_directions.cross)
-    data = factor.halve(factor.s * model.along)
+    data = factor.halve((factor.s * model.along)[:, None])[:, 0]
     return all_directions.own - half.T @ half, all_directions.along - half.T @ data
