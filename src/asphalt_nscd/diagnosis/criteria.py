@@ -70,11 +70,11 @@ class Usual:
     spread: float
 
 
-# AASHTO T 378 allows 0.5 K, two standard deviations, of an isotherm and of a specimen on it; careful laboratories stay
-# far below.
+# AASHTO T 378 allows a specimen 0.5 K: two standard deviations of both temperatures together, 0.25 K. NCAT has 0.2 K of
+# specimens on an isotherm, the likeliest over its nine states. Careful laboratories stay far below.
 LABORATORY = {
-    "isotherm temperature": Usual(0.2, 1.0),  # K
-    "specimen temperature": Usual(0.25, 0.7),  # K
+    "isotherm temperature": Usual(0.15, 1.0),  # K
+    "specimen temperature": Usual(0.2, 0.7),  # K
     # What the isotherms of one specimen differ by in NCAT (data/ncat) and in two campaigns that are not shipped,
     # FD_Mix1 and one of an AMPT: 1 to 2 % and 0.1 to 0.3 deg.
     "mounting, modulus": Usual(0.01, 0.6),
