@@ -78,7 +78,8 @@ def test_a_cause_that_was_named_is_not_said_to_be_untestable():
     diagnosis = diagnosed(("loose_clamp", "b"))
     named = diagnosis.ladder.rungs[0].candidate
     other = replace(named, place="c")
-    unsure = replace(diagnosis, ladder=replace(diagnosis.ladder, unseen=[named, other]))
+    unsure = replace(diagnosis, ladder=replace(diagnosis.ladder))
+    unsure.ladder._detection_limits = diagnosis.ladder.limits, [named, other], diagnosis.ladder.alike
     untestable = [row["cause"] for row in diagnosis_content(unsure, read_specimen())["not_testable"]]
     assert "loose_clamp @ c" in untestable and "loose_clamp @ b" not in untestable
 

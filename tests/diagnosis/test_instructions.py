@@ -305,8 +305,8 @@ def test_a_cause_that_these_tests_cannot_show_is_not_said_to_be_found_in_them(de
     spread = delayed.ladder.estimates_spread
     wide = 3.0 * bias.typical[0] / spread
     limits = {bias.key: wide}
-    shown = replace(delayed, ladder=replace(delayed.ladder, limits=limits))
-    nowhere = replace(delayed, ladder=replace(delayed.ladder, limits={}))
+    shown, nowhere = (replace(delayed, ladder=replace(delayed.ladder)) for _ in range(2))
+    shown.ladder.limits, nowhere.ladder.limits = limits, {}
     assert instructions._strength_by_limit(shown, bias) == pytest.approx((3.7 + 1.645) ** 2)
     assert instructions._strength_by_limit(nowhere, bias) == 0.0
     assert all(one.hidden >= 0.0 for one in reach)

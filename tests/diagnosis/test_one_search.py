@@ -56,13 +56,13 @@ def begun_with(**effects: object) -> fit_beside.State:
     return begin(table(**effects))
 
 
-@cache
 def limits_of(state: fit_beside.State, survey: one_search.Survey) -> tuple:
     """Limits, causes without one, and what else `detection_limits` gives."""
     threshold = sizes.chance_threshold(state, survey, 500, np.random.default_rng(0))
     return sizes.detection_limits(state, survey, threshold)
 
 
+@cache
 def limits_with(**effects: object) -> tuple[one_search.Survey, dict, list]:
     """What it shows of each cause, limits, and causes without one."""
     state = begun_with(**effects)
