@@ -26,7 +26,7 @@ from .not_linear import careful
 from .rates import line
 from .trial import diagnosed
 
-SEED = 20290117  # set after the law learned to bend where binders turn to glass, before any table was drawn
+SEED = 20310523  # set after the last change of the diagnosis, before any of its tables was drawn
 MIXES = 8  # of each campaign and each kind of laboratory
 CAMPAIGNS = {
     "AASHTO T 342": (CYLINDER, (-10.0, 4.0, 21.0, 37.0, 54.0), (0.1, 0.5, 1.0, 5.0, 10.0, 25.0)),
