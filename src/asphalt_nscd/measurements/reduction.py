@@ -281,7 +281,7 @@ def _check_stiffness(
 
 
 def _check_whole_table(table: Table, frame: pd.DataFrame, form: str) -> None:
-    """Refuse a table whose values make sense only in another unit."""
+    """Refuse a table whose values make sense only in another unit or with the other sign."""
     if frame["phase_deg"].median() < -0.5:  # an elastic reference beam may scatter about zero
         raise InputError(
             f"{table.path}: phases are mostly negative; give the angle by which the force leads: remove the minus "

@@ -165,7 +165,10 @@ class _Problem:
         return found[0]
 
     def settle(self, solution: OptimizeResult, known: bool) -> OptimizeResult:
-        """The optimum at the scatter that its own residuals have; the prior counts the more, the larger that is."""
+        """Solve again with the scatter of the last residuals until it no longer changes; `known` as in `scatter_of`.
+
+        A larger scatter weakens the tests, and so strengthens the prior.
+        """
         for _ in range(ROUNDS):
             before, self.scatter = self.scatter, self.scatter_of(solution, known)
             if abs(self.scatter / before - 1.0) < SETTLED:

@@ -36,8 +36,12 @@ def is_shear(name: str) -> bool:
 
 
 def read_sweeps(path: Path) -> Table:
-    """Temperature, frequency, |G*| and phase of each point in a file of a rheometer, under the names of COLUMNS."""
-    names: dict[str, str] = {}
+    """Temperature, frequency, |G*| and phase of each point in a file of a rheometer, under the names of COLUMNS.
+
+    Its words are first changed into those of a mix (G to E), so that the reader of mixes reads it; a refusal changes
+    them back.
+    """
+    names: dict[str, str] = {}  # of the file by those of a mix; `_renamed` enters them
     tables: list[Table] = []
     refused: list[NotTests] = []
     try:

@@ -210,7 +210,10 @@ def first_and_end(rank, members, slabs, kind):
 
 @compiled_for_teams
 def part_of(rank, members, slabs, kind, work):
-    """What a member sweeps, as of `first_and_end`, but with parts of about equal `work` (slabs,)."""
+    """What a member sweeps: slabs first, first + 2, ... before `end`, with parts of about equal `work` (slabs,).
+
+    A slab is of the member in whose equal share of the sum of the work its middle lies; `kind` as in `first_and_end`.
+    """
     if kind == 2:
         return first_and_end(rank, members, slabs, kind)
     total = 0.0

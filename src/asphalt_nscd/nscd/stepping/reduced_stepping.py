@@ -291,12 +291,16 @@ class ReducedStepper:
         self._closing = part.closing_of(self._may_close)
 
     def _enrich(self, code: int) -> None:
-        """Widen the basis until it holds the step just refused, at the head velocity just tried."""
+        """Widen the basis once for the step just refused, at the head velocity just tried.
+
+        For a bond that broke by directions kept ready (`_stand_by`), else by the exact correction of that step.
+        """
         from asphalt_nscd.nscd.stepping.break_modes import AHEAD
         from asphalt_nscd.nscd.stepping.reduced_model import append_columns
 
         self.enrichments += 1
         whole, model = self.model, None
+        # a bond broke, and directions for its break were kept ready, or can be for more bonds
         if code == YIELD and self._stand_by is not None and self._ritz is not None:
             if not np.isin(self.state.broken, self._stand_by.bonds).all():
                 self._stand_by_for(self.state.broken, AHEAD)
