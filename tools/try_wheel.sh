@@ -1,5 +1,5 @@
 #!/bin/sh
-# Build sdist and wheel, and use the wheel as a newcomer would: in an empty environment, outside the repository, without
+# Build sdist and wheel of the last commit, and use the wheel as a newcomer would: in an empty environment, outside the repository, without
 # Snakemake, with each Python from 3.11 on that this machine has.
 #   PYTHON=python3 sh tools/try_wheel.sh [dist]    keeps both in a folder; PYTHON is needed where there is no .venv
 set -eu
@@ -15,7 +15,7 @@ uv=$place/uv/bin/uv
 git clone --quiet "$repository" "$place/clone"
 "$uv" build --quiet --out-dir "$dist" "$place/clone" # the wheel from the sdist
 left=$(git -C "$place/clone" status --porcelain --ignored | sed '/egg-info/d')
-[ -z "$left" ] || { echo "error: building the wheel left $left in the repository" >&2; exit 1; }
+[ -z "$left" ] || { echo "error: building the wheel left $left in the clone" >&2; exit 1; }
 
 # Versions as locked, so that the trial does not depend on what was released today.
 sed -n '/^[a-zA-Z0-9]/s/ *\\$//p' "$repository/requirements.txt" >"$place/locked.txt" # without the hashes

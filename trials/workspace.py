@@ -31,8 +31,6 @@ class Plan:
 class Workspace:
     """A folder of its own in which the repository's Snakefile runs."""
 
-    configuration = "study.yaml"
-
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         for name in ("config", "data", "profiles"):
@@ -54,7 +52,7 @@ class Workspace:
 
     def command(self, *arguments: str) -> list[str]:
         snakemake = [sys.executable, "-m", "snakemake", "--snakefile", str(ROOT / "Snakefile")]
-        return [*snakemake, *arguments, "--configfile", self.configuration]
+        return [*snakemake, *arguments, "--configfile", "study.yaml"]
 
     def run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
         """What `python -m snakemake` does and says, in a fork; `start` really starts it."""
@@ -66,7 +64,7 @@ class Workspace:
         return subprocess.Popen(self.command(*arguments), cwd=self.folder, text=True, **usual | options)
 
     def alone(self, *arguments: str, **options: Any) -> subprocess.CompletedProcess[str]:
-        """The same, to its end."""
+        """A run in a process of its own, to its end."""
         with self.start(*arguments, **options) as process:
             out, error = process.communicate()
         return subprocess.CompletedProcess(process.args, process.returncode, out or "", error or "")

@@ -233,7 +233,7 @@ def test_laws_of_measured_mixes():
         f"{row.burgers:.1f}, {row.one_law:.1f} and {row.as_run:.1f} % of {what}"
         for row, what in ((out, "|E\\*|"), (phase, "the phase"))
     )
-    assert f"miss by {told}: the third is no gain" in readme()
+    assert f"miss by {told}: the third extrapolates worse" in readme()
     for missed in (out, phase):
         assert missed.as_run > max(missed.one_law, missed.phase_offset) and "extrapolates worse" in page(
             "measured"
@@ -308,7 +308,7 @@ def test_verdicts_on_the_paper():
     verdicts = published("paper/audit").verdict.value_counts()
     untold = verdicts["left open"] + verdicts["cannot be checked"]
     told = (
-        f"of {verdicts.sum()}, {verdicts.sum() - verdicts['not judged']} were judged; {verdicts['holds']} hold, "
+        f"of {verdicts.sum()}, {verdicts.sum() - verdicts['not judged']} were taken up; {verdicts['holds']} hold, "
         f"{verdicts['reproduced']} are reproduced, {verdicts['inconsistent in itself']} contradict themselves, "
         f"{verdicts['differs']} differ from ours; {untold} stay open or cannot be checked"
     )

@@ -292,7 +292,7 @@ class Diagnosis:
         return text
 
     def write(self, folder: str | Path) -> str:
-        """Write diagnosis.json, residuals.csv, causality.csv, law.json and what is reported of the mix.
+        """Write diagnosis.json, residuals.csv, causality.csv, law.json, limits.csv if verified, and what is reported.
 
         Parameters
         ----------

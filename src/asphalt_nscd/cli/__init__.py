@@ -117,7 +117,7 @@ def run_script(job: Any, step: Callable[[Any], object]) -> None:
 
 
 def run_table(job: Any, make: Callable[..., Any]) -> None:
-    """Likewise with a table, the script's one output, that is made of its inputs by their names."""
+    """Run a script whose one output is a table: the names of its inputs, but `code`, are the parameters of `make`."""
 
     def step(job: Any) -> None:
         from asphalt_nscd.files.store import write_table

@@ -44,8 +44,8 @@ SWEEP = "specimen", "temperature_C"
 OFF_SWEEP = 0.3  # of the logarithm, by which a value without its digit too many may leave its sweep
 # Of ln |E*| over the isotherms, that few mixes leave of a parabola, or of a line where these are few.
 ROUGH = 0.8
-# The same over kelvins that are as long as |E*| is steep over ln f there, which no unit changes: 125 drawn or measured
-# tables of three isotherms leave 0.2 at most, and 0.3 or more with one isotherm in ksi.
+# The same over temperatures stretched by the slope of ln |E*| over ln f there, which no unit changes: 125 drawn or
+# measured tables of three isotherms leave 0.2 at most, and 0.3 or more with one isotherm in ksi.
 STEEP = 0.3
 COLD = 25.0  # degC; at warmer ones the phase falls again as a mix grows softer
 
@@ -130,7 +130,7 @@ def _lonely_frequencies(table: pd.DataFrame) -> Iterator[str]:
 
 
 def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
-    """Sentences on |E*| that falls as the frequency rises: in all sweeps, else in single ones."""
+    """Sentences on |E*| that falls as the frequency rises: in most sweeps, else in single ones."""
     sweeps = [(slope, phase) for _, _, slope, phase in _sweeps(table)]
     if not sweeps:
         return
@@ -300,7 +300,7 @@ def _meant(logarithm: pd.DataFrame, warm: float, cold: float) -> str:
 
 
 def _order_of_isotherms(table: pd.DataFrame) -> Iterator[str]:
-    """A sentence on each specimen that is STIFFER at a warmer isotherm than at a colder one, at every frequency."""
+    """A sentence for two isotherms of a specimen: the warmer one is stiffer by STIFFER or more, at every frequency."""
     for specimen, logarithm in _pivot_conditions(table).items():
         rows = logarithm.dropna().unstack(level=0)
         for cold in rows:

@@ -107,7 +107,7 @@ def _sentence(one: Common) -> str:
     differ = []
     for group in one.differs:
         parts = getattr(one, group)
-        # Of very many all are uncertain: each counts that shows anything.
+        # With many parts each is uncertain: then all with a finite error count.
         known = [part for part in parts if part.std_error < SHOWS * one.std_error]
         known = known or [part for part in parts if math.isfinite(part.std_error)]
         low, high = min(known, key=lambda part: part.value), max(known, key=lambda part: part.value)

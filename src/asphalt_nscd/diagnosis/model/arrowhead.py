@@ -44,7 +44,7 @@ class Arrowhead:
 
 
 class Factor:
-    """Lower Cholesky factor of B = 1 + S G S at roots of variances (q,): S^-1 (1 - B^-1) S^-1 is what is left of G.
+    """Lower Cholesky factor of B = 1 + S A S, A = G - H^T H, S of roots of variances (q,); S^-1 (1 - B^-1) S^-1 is left.
 
     It `failed` where there is none: rounding, where a size is absurd.
     """

@@ -79,7 +79,7 @@ class Processes:
 
     @cached_property
     def gram(self) -> NDArray:
-        """Products (q, q) of the columns of `factor`: they outlast many laws."""
+        """Products (q, q) of the columns of `factor`; they stay the same when the law is fitted again."""
         return np.asarray(self.factor.T @ self.factor)
 
     @cached_property

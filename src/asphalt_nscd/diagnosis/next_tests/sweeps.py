@@ -99,7 +99,7 @@ def fill_strain(observed: Observations) -> Observations:
 def every_test(observed: Observations, at: Sequence[float]) -> Observations:
     """The tests done, then every specimen and a new one at all temperatures `at` [degC] and frequencies.
 
-    Last, at half the strain, the frequencies tested at each isotherm of a specimen.
+    Last, at half the strain, all frequencies of the table at some of the isotherms tested of a specimen.
     """
     names = (*observed.names, NEW)
     full = [(s, t, f, 1.0) for s in range(len(names)) for t in at for f in frequencies(observed)]

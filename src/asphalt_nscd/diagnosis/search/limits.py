@@ -55,8 +55,8 @@ TAKEN_UP = 1.6
 def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]]:
     """Amplitude and standard error, in physical units, of every cause at every place.
 
-    Of a cause that is in the fit, and of each other that is told, as if it were the next one. Of several shapes, the
-    one that the table sees best.
+    Of a cause that is in the fit, and of each other as if it were the next one, but for faults of one specimen or
+    isotherm. Of several shapes, the one that the table sees best.
     """
     out: dict[tuple, tuple[float, float]] = {}
     for active in state.fitted.active:
@@ -64,7 +64,7 @@ def estimates(state: State, surveyed: Survey) -> dict[tuple, tuple[float, float]
         out[active.key] = (own.amplitude * active.typical[0], own.std_error * active.typical[0])
     best: dict[tuple, int] = {}
     for k, candidate in enumerate(surveyed.candidates):
-        # Of faults of one place those of a frequency alone are told that are not in the fit (`told.odd_frequency`).
+        # Of faults of one place, only those of a frequency are asked for without being in the fit (`odd_frequency`).
         if candidate.cause.told and not isinstance(candidate.place, Setting):
             continue
         other = best.setdefault(candidate.key, k)
