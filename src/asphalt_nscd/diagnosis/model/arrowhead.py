@@ -44,7 +44,7 @@ class Arrowhead:
 
 
 class Factor:
-    """Lower Cholesky factor of B = 1 + S A S, A = G - H^T H, S of roots of variances (q,); S^-1 (1 - B^-1) S^-1 is left.
+    """Lower Cholesky factor of B = 1 + S A S, A = G - H^T H, S roots of variances (q,); left is S^-1 (1 - B^-1) S^-1.
 
     It `failed` where there is none: rounding, where a size is absurd.
     """

@@ -13,7 +13,7 @@ Stepper = CondensedStepper | ReducedStepper | SweepingStepper
 
 
 class March:
-    """Steps of `dt` [s] by any scheme from a stepper's state, at rest for the energy account; its stepper takes dt / a."""
+    """Steps of `dt` [s] by any scheme from a stepper's state, at rest for the energy account; the stepper's: dt / a."""
 
     def __init__(
         self,
