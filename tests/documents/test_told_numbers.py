@@ -171,6 +171,14 @@ def test_no_row_of_the_verification_failed():
     assert "Rows that passed; none failed:" in page("core")
 
 
+def test_how_far_phases_are_off_where_nothing_was_tested():
+    table = published("intervals/summary").set_index(["population", "at"]).xs("54.4 degC", level="at")
+    drawn = table.loc[["invented", "usual", "thinned"]]
+    off, half = drawn.phase_off_deg.round(1), drawn.phase_half_deg.round(1)
+    told = f"by {off.invented}° in the median, those of `usual` ones by {off.usual}° and of `thinned` ones by {off.thinned}°"
+    assert f"{told}, at half-widths of {half.min()} to {half.max()}°" in page("trust")
+
+
 def test_how_near_an_excess_can_be_found():
     percent = published("excess/summary").set_index("what").percent.round().astype(int)
     text = page("trust")
