@@ -36,6 +36,30 @@ def test_last_word_of_a_failed_job(tmp_path, written, sentence):
     assert kept.startswith((written or "").replace("\r", "\n")) and kept.count(KILLED) == (sentence == KILLED)
 
 
+DIED = """\
+RuleException:
+CalledProcessError in file "rules/report.smk", line 70:
+Command 'exec  asphalt-nscd reduce mine.csv' died with <Signals.SIGKILL: 9>.
+[Sun Nov 29 07:00:04 2026]
+"""
+
+
+def test_what_a_killed_job_had_done_is_no_last_word(tmp_path):
+    """But its own sentence is, and other jobs are not taken for killed."""
+    words = {
+        "one": "CPU time: 0.50 s, memory: 160 MB",
+        "two": "error: it was stopped.",
+        "three": "Building DAG",
+    }
+    for name, word in words.items():
+        (tmp_path / name).write_text(f"{word}\n")
+    (run := tmp_path / "run.log").write_text(
+        "".join(DIED * (name != "three") + RUN.format(tmp_path / name) for name in words)
+    )
+    said = (KILLED, words["two"], "error: Building DAG")
+    assert failures([run]) == [f"{one} ({tmp_path / name})" for one, name in zip(said, words, strict=True)]
+
+
 def test_run_without_a_failed_job_or_without_a_log(tmp_path):
     (run := tmp_path / "run.log").write_text("WorkflowError: no rule\n")
     assert failures([run]) == failures([]) == failures([tmp_path / "none.log"]) == []

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import selectors
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -138,3 +140,20 @@ def test_nothing_is_forked_of_sources_that_have_changed(tmp_path):
     for file in (held.selector, held.listening, held.loaded, held.load):
         file.close()
     assert fresh == (len(os.listdir("/proc/self/task")) == 1)
+
+
+def test_a_client_that_is_gone_when_its_step_has_ended_harms_nobody(tmp_path):
+    """Both are noticed at once: a job that was killed at its very end."""
+    server, (client, other) = warm.Warm(str(tmp_path)), socket.socketpair()
+    ended = subprocess.Popen(["true"])
+    step = warm.Step(ended.pid, open(os.pidfd_open(ended.pid), "rb", 0), client)
+    server.steps.append(step)
+    server.selector.register(step.watched, selectors.EVENT_READ)
+    server.selector.register(client, selectors.EVENT_READ)
+    other.close()
+    server._end(step)
+    server._pass_on(step)
+    assert not server.steps and client.fileno() == -1
+    ended.returncode = 0  # it was waited for
+    for held in (server.selector, server.listening, server.loaded, server.load):
+        held.close()

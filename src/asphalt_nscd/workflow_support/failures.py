@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 _FAILED = re.compile(r"^ +log: (.+) \(check log file", re.MULTILINE)  # as Snakemake puts it
+_DIED = re.compile(r"died with <Signals\.\w+: \d+>\.\n(?:(?! +log: ).*\n)* +log: (.+) \(check log file")
 _SET_ASIDE = re.compile(r"error: (.+?): .*; it was set aside as ")
 _PROGRESS = re.compile(r"\d+%")
 KILLED = "error: the job was killed, or the memory was used up; run the same command again."
@@ -20,12 +21,12 @@ def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
     is left out.
     """
     run = "\n".join(map(_text, snakemake_logs))
-    said = []
+    said, died = [], {*map(Path, _DIED.findall(run))}
     for path in map(Path, dict.fromkeys(_FAILED.findall(run))):
         text = _text(path).rstrip()
         last = re.split(r"[\r\n]", text)[-1]
-        # A job that was killed leaves no last word of its own, or how far it had come; other programs say no `error:`.
-        if not last or _PROGRESS.search(last):
+        # A job that was killed leaves no last word of its own, or what it had done; other programs say no `error:`.
+        if not last or _PROGRESS.search(last) or (path in died and not last.startswith("error: ")):
             last = KILLED
             path.parent.mkdir(parents=True, exist_ok=True)
             with path.open("a", encoding="utf-8") as file:

@@ -156,6 +156,8 @@ class Warm:
 
     def _pass_on(self, step: Step) -> None:
         """Send a step the signals that its client has got; kill it where the client was killed."""
+        if step not in self.steps:  # both ended at one moment, and `_end` came first
+            return
         with suppress(OSError):
             if numbers := step.client.recv(16):
                 for number in numbers:
