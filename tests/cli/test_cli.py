@@ -335,3 +335,23 @@ def test_threads_that_the_machine_has_not_are_refused_before_anything_is_compile
     assert stop.value.code == 2
     assert f"threads = {threads}" in capsys.readouterr().err
     assert not Path("s1.h5").exists()
+
+
+def test_a_thread_without_memory_ends_the_step_in_a_sentence():
+    """The others may wait for it for ever: here the step does."""
+    step = """
+import threading
+from asphalt_nscd import cli
+
+def fail():
+    raise MemoryError
+
+def step():
+    threading.Thread(target=fail).start()
+    threading.Event().wait()
+
+cli._end(step)
+"""
+    done = subprocess.run([sys.executable, "-c", step], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 2 and done.stderr.startswith("error: the memory is used up")
+    assert done.stderr.count("\n") == 1

@@ -12,6 +12,7 @@ import re
 import shutil
 import signal
 import sys
+import threading
 from collections.abc import Callable
 from importlib import import_module
 from io import TextIOWrapper
@@ -139,6 +140,7 @@ def _end(step: Callable[[], object]) -> NoReturn:
         # PR_SET_PDEATHSIG: the kernel ends this step when Snakemake dies, however it dies.
         prctl_set_death_signal = 1
         ctypes.CDLL(None).prctl(prctl_set_death_signal, signal.SIGTERM)
+    threading.excepthook = _end_with_thread
     # Modules that are being loaded hold no garbage, and most steps load little else.
     gc.set_threshold(100_000, 50, 100)
     status = _status(step)
@@ -146,6 +148,16 @@ def _end(step: Callable[[], object]) -> NoReturn:
         # For timings.csv: Snakemake looks at a job now and then, and misses what it takes after the last look.
         click.echo(f"{CPU_TIME}{sum(os.times()[:4]):.2f} s, memory: {_most_memory():.1f} MB", err=True)
     sys.exit(status)
+
+
+def _end_with_thread(failure: threading.ExceptHookArgs) -> None:
+    """End the process where one of its threads lacks memory: the others may wait for it. Else as usual."""
+    if not isinstance(failure.exc_value, MemoryError):
+        threading.__excepthook__(failure)
+        return
+    status = _say(_NO_MEMORY, 2)
+    sys.stderr.flush()
+    os._exit(status)
 
 
 def _most_memory() -> float:
