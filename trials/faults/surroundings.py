@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from faults.damaged import cut
-from faults.fault import TEST
+from faults.fault import DEPOSIT, TEST
 from faults.study import Run, Study
 
 CACHE = "ASPHALT_NSCD_CACHE"
@@ -60,6 +60,7 @@ def stamps_lost(study: Study) -> Run:
 def table_gone(study: Study) -> Run:
     path = study.folder / "config/smoke_counts.csv"
     aside = path.rename(path.with_suffix(".aside"))
+    (study.results / DEPOSIT).unlink()  # of a finished study nobody needs the table
     done = study.finish()
     aside.rename(path)
     return done
