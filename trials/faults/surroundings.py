@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from faults.damaged import cut
-from faults.fault import DEPOSIT, TEST
+from faults.fault import TEST
 from faults.study import Run, Study
 
 CACHE = "ASPHALT_NSCD_CACHE"
@@ -58,11 +58,12 @@ def stamps_lost(study: Study) -> Run:
 
 
 def table_gone(study: Study) -> Run:
-    path = study.folder / "config/smoke_counts.csv"
-    aside = path.rename(path.with_suffix(".aside"))
-    (study.results / DEPOSIT).unlink()  # of a finished study nobody needs the table
+    """Of a name that no shipped file has, for these stand in."""
+    path = study.folder / "study.yaml"
+    text = path.read_text()
+    path.write_text(text.replace("config/smoke_counts.csv", "config/mine.csv"))
     done = study.finish()
-    aside.rename(path)
+    path.write_text(text)
     return done
 
 

@@ -59,7 +59,7 @@ def standing() -> dict[str, list[Fault]]:
             Fault("stamps of the code lost", surroundings.stamps_lost, None, TEST),
         ],
         "inputs and environment": [
-            Fault("input table gone", surroundings.table_gone, "error: .*smoke_counts.csv"),
+            Fault("input table gone", surroundings.table_gone, "error: .*mine.csv"),
             Fault("input table cut", surroundings.table_in_half, "error: .*table3_burgers.csv", TEST),
             Fault("configuration cut", surroundings.configuration_in_half, "error: .*study.yaml"),
             Fault("compiled core damaged", with_environment(MODEL, CACHE, damaged_cache("*.nb?")), CORE, MODEL),
