@@ -107,6 +107,14 @@ def test_sizes_follow_the_table(kind):
     )  # drawn to the usual size by its prior
 
 
+def test_what_a_cause_has_enlarged_is_usual_again_and_what_is_small_stays():
+    found = still().model.processes
+    everyday, usual = laboratory.is_everyday(found), found.usual**2
+    large, small = (fit_beside.lean(found, factor * usual) for factor in (9.0, 0.25))
+    assert (large == np.where(everyday, usual, 9.0 * usual)).all() and (small == 0.25 * usual).all()
+    assert everyday.any() and not everyday.all()
+
+
 @pytest.mark.parametrize("few", [False, True])
 def test_what_reaches_one_isotherm_alone_has_its_number(few):
     """Also where two tests of the last isotherm are left, of two specimens that another one has each."""
