@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from asphalt_nscd.workflow_support.failures import KILLED, failures
+from asphalt_nscd.workflow_support.failures import INTERRUPTED, KILLED, failures
 
 RUN = """\
 Error in rule reduce:
@@ -21,6 +21,7 @@ Error in rule reduce:
         ("pouring: 50%\rpouring: 51%\nerror: m.csv: row 3: no.\n", "error: m.csv: row 3: no."),
         ("Traceback (most recent call last):\n  File x\nValueError: why\n", "ValueError: why"),
         ("Building DAG\nPackage pygments must be installed.\n", "error: Package pygments must be installed."),
+        ("Traceback (most recent call last):\n  File x\nKeyboardInterrupt\n", INTERRUPTED),
         ("pouring: 50%|#####     |\rpouring: 51%|#####     |", KILLED),
         ("", KILLED),
         (None, KILLED),
@@ -50,13 +51,14 @@ def test_what_a_killed_job_had_done_is_no_last_word(tmp_path):
         "one": "CPU time: 0.50 s, memory: 160 MB",
         "two": "error: it was stopped.",
         "three": "Building DAG",
+        "four": "Traceback (most recent call last):\nKeyboardInterrupt",
     }
     for name, word in words.items():
         (tmp_path / name).write_text(f"{word}\n")
     (run := tmp_path / "run.log").write_text(
         "".join(DIED * (name != "three") + RUN.format(tmp_path / name) for name in words)
     )
-    said = (KILLED, words["two"], "error: Building DAG")
+    said = (KILLED, words["two"], "error: Building DAG", INTERRUPTED)
     assert failures([run]) == [f"{one} ({tmp_path / name})" for one, name in zip(said, words, strict=True)]
 
 

@@ -11,6 +11,7 @@ _DIED = re.compile(r"died with <Signals\.\w+: \d+>\.\n(?:(?! +log: ).*\n)* +log:
 _SET_ASIDE = re.compile(r"error: (.+?): .*; it was set aside as ")
 _PROGRESS = re.compile(r"\d+%")
 KILLED = "error: the job was killed, or the memory was used up; run the same command again."
+INTERRUPTED = "error: interrupted; nothing half-written is left."
 
 
 def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
@@ -25,8 +26,10 @@ def failures(snakemake_logs: Iterable[str | Path]) -> list[str]:
     for path in map(Path, dict.fromkeys(_FAILED.findall(run))):
         text = _text(path).rstrip()
         last = re.split(r"[\r\n]", text)[-1]
+        if last == "KeyboardInterrupt":  # while it was still loading
+            last = INTERRUPTED
         # A job that was killed leaves no last word of its own, or what it had done; other programs say no `error:`.
-        if not last or _PROGRESS.search(last) or (path in died and not last.startswith("error: ")):
+        elif not last or _PROGRESS.search(last) or (path in died and not last.startswith("error: ")):
             last = KILLED
             path.parent.mkdir(parents=True, exist_ok=True)
             with path.open("a", encoding="utf-8") as file:
