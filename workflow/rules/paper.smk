@@ -16,6 +16,7 @@ for name, data in PAPER_TABLES.items():
             f"<results>/benchmarks/{name}.tsv"
         group:
             "contents"
+        priority: 6  # some take half a minute: none may be left alone to the end
         conda:
             ENVIRONMENT
         params:
