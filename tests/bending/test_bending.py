@@ -31,6 +31,7 @@ from asphalt_nscd.specimen.system import bending_system
 # 15 degC with viscosities lowered until transients die within two cycles at 40 Hz
 LAW = Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9)
 FREQUENCY, DT = 40.0, 1e-4
+NONE = np.empty((0, 0))
 
 
 @pytest.fixture(scope="module")
@@ -311,6 +312,32 @@ def test_tests_that_cannot_be_reduced(folder, cycles, time_step, message):
     with pytest.raises(InputError, match=message):
         simulate(files(folder, "no.h5"), 15.0, small(cycles), Numerics(time_step, 0))
     assert not (folder / "no.h5").exists()
+
+
+def test_an_account_that_no_method_keeps(model):
+    for case, method in (
+        (small(), "sweeps"),
+        (small(), "harmonic"),
+        (replace(small(), by_force=True), "reduced"),
+    ):
+        with pytest.raises(
+            InputError, match="^energy: of a commanded force, and by the methods sweeps and harmonic"
+        ):
+            run_test(model, bond_law(LAW), case, Numerics(DT, 0, method), RunOptions(energy=True))
+
+
+@pytest.mark.parametrize("test, mobile_mass", [("four-point bending", 2e-3), ("bending", 0.0)])
+def test_bodies_that_sweeps_cannot_move(make_beam, test, mobile_mass):
+    """Of clamps some motions are held; and what has no mass has infinite mobility: forces were NaN, told as settled."""
+    beam = make_beam(shape=(2, 2, 6), test=test, area="facets")
+    beam = replace(beam, geometry=replace(beam.geometry, mobile_mass=mobile_mass))
+    held = Model(
+        bending_system(beam, 0.35, 2.7e6, 0.7), NONE, beam.geometry, beam.position[:, 2], "beam", "free"
+    )
+    with pytest.raises(
+        InputError, match="^beam: the method sweeps moves spheres and one head that has a mass"
+    ):
+        run_test(held, bond_law(LAW), small(), Numerics(DT, 0, "sweeps"))
 
 
 def test_tests_of_one_command_are_those_made_one_by_one(folder):

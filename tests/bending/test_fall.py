@@ -16,6 +16,7 @@ from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.cli import main
 from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.fourpoint import Beam
+from asphalt_nscd.nscd.world import World
 
 
 @pytest.fixture(scope="module")
@@ -39,6 +40,19 @@ def test_it_starts_at_rest_over_the_floor_in_two_pieces(small):
         released(small, QUICK_LAW, Fall(sawn=0.001), Bonds())
     with pytest.raises(an.InputError, match="it takes at most 1e.06: raise the time step"):
         Fall(duration=100.0, time_step=1e-7)
+
+
+def test_a_step_without_an_answer_says_when(small, monkeypatch):
+    """As of 2 x 2 x 4 spheres with a rolling friction of 3 after 22 ms: couples of contacts do not settle."""
+
+    def fails(self):
+        raise ArithmeticError("couples do not settle")
+
+    monkeypatch.setattr(World, "advance", fails)
+    with pytest.raises(
+        an.InputError, match="^fall: after 0 s couples do not settle; give a shorter time step"
+    ):
+        fell(small, QUICK_LAW, Fall(duration=0.01, frames=2))
 
 
 @pytest.mark.slow

@@ -102,6 +102,15 @@ def test_bonded_spheres_do_not_meet_whichever_is_larger(order):
     assert _Contacts.near(of_two).gap.size == 1
 
 
+def test_what_would_break_for_ever_is_refused():
+    with pytest.raises(ValueError, match="^strength: each bond's must be greater than zero"):
+        world(*bar((2, 1, 1), strength=0.0))
+    endless = world(*bar((2, 1, 1)), NOWHERE)
+    endless.sigma[0] = np.nan
+    with pytest.raises(ArithmeticError, match="the motion of a step is not finite"):
+        endless.advance()
+
+
 def test_small_strains_are_those_of_small_displacements():
     """A bar that vibrates by a nanometre: motion and stresses of the condensed stepper, which a slope of 1e-6 joins."""
     position, bonds = bar()

@@ -61,10 +61,11 @@ def test_every_pair_that_may_meet_is_on_the_list(time_step, rain):
     flock.velocity[: n // 2, 2] -= rain
     lid = np.zeros((6, 3))
     lid[5, 2] = -0.5
+    flock.velocity[n:, :3] = lid
     renewed, met = set(), 0
     for _ in range(60):
         before = flock.position.copy(), flock.plane_point.copy(), flock.velocity[:n, :3].copy()
-        flock.advance(numerics, lid)
+        flock.advance(numerics)
         renewed.add(id(flock._start))
         position, planes, velocity = before
         speed = velocity + numerics.time_step * flock.gravity
@@ -318,3 +319,18 @@ def test_fixed_spheres_stay_and_bear_a_third():
     np.testing.assert_array_equal(bed.position[:2], position[:2])
     assert bed.position[2, 2] == pytest.approx(0.004 + np.sqrt(0.008**2 - 0.00375**2), abs=1e-4)
     assert np.abs(bed.velocity).max() < 1e-3
+
+
+@pytest.mark.parametrize("size", [3.9e-3, 4e-3, 4.1e-3])
+def test_a_fixed_sphere_is_a_part_of_the_walls(size):
+    """On rough walls a smooth sphere rolls off it, whichever comes first in the pair: (7/10) m v^2."""
+    radius, apart = np.array([4e-3, size]), (4e-3 + size) * np.array([np.sin(0.3), 0.0, np.cos(0.3)])
+    bed = GranularBed.spheres_in_box(
+        0.02 + np.array([0.0 * apart, apart]), radius, (0.04,) * 3, 2600.0, ContactLaw(0.0, 1.0)
+    )
+    bed.inverse_mass[0] = 0.0
+    for _ in range(200):
+        bed.advance(PouringNumerics.of(radius, 4e-5))
+    speed, spin = np.linalg.norm(bed.velocity[1, :3]), np.linalg.norm(bed.velocity[1, 3:])
+    assert spin == pytest.approx(speed, rel=1e-3) and speed > 0.01
+    assert bed.kinetic_energy() == pytest.approx(0.7 * speed**2 / bed.inverse_mass[1], rel=1e-3)

@@ -10,7 +10,7 @@ from asphalt_nscd.specimen.lattice import random_lattice
 
 MIXES = {
     "alone": ([4e-3, 6e-3], [30, 25], (0.03, 0.02, 0.08)),  # none fits an octant of a 6 mm cell
-    "sharing": ([2e-3, 3e-3, 6e-3], [150, 60, 30], (0.03, 0.021, 0.06)),
+    "sharing": ([2e-3, 3e-3, 6e-3, 4e-2], [150, 60, 30, 0], (0.03, 0.021, 0.06)),  # of the largest size none
     "one size": ([2e-3], [100], (0.01, 0.01, 0.01)),
     "crowded": ([2e-3, 4e-3], [8 * 20, 4], (0.008, 0.012, 0.016)),  # the last octant is taken
 }

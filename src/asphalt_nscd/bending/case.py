@@ -132,6 +132,10 @@ def require_possible(case: LoadCase, numerics: Numerics, options: RunOptions) ->
         )
     if scheme != "euler" and not steps:
         raise InputError(f"method {method} has no scheme {scheme!r}; choose the method reduced or condensed.")
+    if options.energy and (case.by_force or not steps):
+        raise InputError(
+            "energy: of a commanded force, and by the methods sweeps and harmonic, no account is kept; leave it out."
+        )
     if options.frames and not steps:
         raise InputError(f"method {method} keeps no frames; choose the method reduced or condensed.")
     if method == "sweeps" and not case.rig.is_rigid:

@@ -171,13 +171,12 @@ def stuck_stiffness(system: BondedSystem, law: AnyLaw, skeleton: Skeleton, omega
 
 
 def _loose(system: BondedSystem) -> BondedSystem:
-    """The same without weight or limit of strength, its head free: what is driven instead is bonded to nothing."""
+    """The same without weight, its head free: what is driven instead is bonded to nothing."""
     none = sparse.csr_matrix((system.weight.size, 1))
     return replace(
         system,
         operator=sparse.hstack([system.operator, none]).tocsr(),
         mass=np.append(system.mass, 1.0),
         load=np.zeros(system.mass.size + 1),
-        strength=np.full_like(system.strength, np.inf),
         driven=system.mass.size,
     )

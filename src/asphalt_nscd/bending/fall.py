@@ -66,7 +66,10 @@ def fell(specimen: Specimen, law: BondLaw, fall: Fall = Fall(), bonds: Bonds = B
     kept = set(np.linspace(0, fall.steps, min(fall.frames, fall.steps + 1)).round().astype(int).tolist())
     rows, frames = [_row(world)], [_frame(world, start)]
     for step in range(1, fall.steps + 1):
-        world.advance()
+        try:
+            world.advance()
+        except ArithmeticError as error:
+            raise InputError(f"fall: after {world.time:.4g} s {error}; give a shorter time step.") from None
         if step in kept:
             rows.append(_row(world))
             frames.append(_frame(world, start))

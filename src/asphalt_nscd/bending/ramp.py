@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from asphalt_nscd.bending.taring import soft_clamp, tared
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.words import counted
 from asphalt_nscd.nscd.bonds.head import HeadDevices
+from asphalt_nscd.nscd.stepping.energy import Energies, EnergyAccount
 from asphalt_nscd.nscd.stepping.integrator import March
 from asphalt_nscd.nscd.stepping.reduced_stepping import ReducedStepper
 from asphalt_nscd.nscd.stepping.scheme import Scheme
@@ -52,19 +53,22 @@ def ramp(
     # the reduced model bears the steps before the first break, the full one all others
     small = ReducedStepper(system.reduced_form[0], bonds, dt, runs.RESIDUAL_TOLERANCE, 0, HeadDevices(clamp))
     march = March(small, Scheme(), bonds, dt)
+    march.account = EnergyAccount(bonds, by_force=clamp > 0.0)
     kept = np.unique(np.linspace(0, pulled.steps - 1, pulled.frames).round().astype(int))
-    rows: list[dict[str, float]] = []
+    count: list[int] = []
+    sums: list[Energies] = []
 
     def note() -> None:
-        sums, broken = march.account.sums, len(march.stepper.state.broken)
+        now, broken = replace(march.account.sums), len(march.stepper.state.broken)
         # under a commanded force, pieces fly apart once more energy moves than springs hold
-        if clamp and broken and sums.kinetic > sums.springs:
+        if clamp and broken and now.kinetic > now.springs:
             raise InputError(f"the specimen gives way, {broken} of {counted(model.bonds, 'bond')} broke")
-        rows.append({"broken_bonds": broken, **{f"energy_{k}_J": v for k, v in asdict(sums).items()}})
+        count.append(broken)
+        sums.append(now)
 
     options = RunOptions(progress, keeps_record=True, to_failure=True)
     run = runs.march_along(march, system, end * share, options, set(kept.tolist()), after=note)
-    if not rows:
+    if not sums:
         raise InputError(f"{model.name}: {run.ended}")
     done = run.force.size
     times = dt * np.arange(1.0, done + 1.0)
@@ -72,7 +76,8 @@ def ramp(
         "time_s": times,
         "displacement_m": end * share[:done] - clamp * run.force,
         "force_N": run.force,
-        **{name: np.array([row[name] for row in rows]) for name in rows[0]},
+        "broken_bonds": np.array(count),
+        **{f"energy_{name}_J": np.array([getattr(each, name) for each in sums]) for name in asdict(sums[0])},
         "broken": np.asarray(run.broken, np.int64),
     }
     if run.frames:
@@ -82,16 +87,16 @@ def ramp(
     attributes: dict[str, Any] = {
         "specimen": model.name,
         "bonds": model.bonds,
-        "broken_bonds": int(rows[-1]["broken_bonds"]),
+        "broken_bonds": count[-1],
         "peak_force_N": float(run.force[peak]),
         "displacement_at_peak_m": float(arrays["displacement_m"][peak]),
-        "broken_at_peak": int(rows[peak]["broken_bonds"]),
+        "broken_at_peak": count[peak],
         "in_two": not model.is_whole(run.broken),
         "ended": run.ended,
         "time_step_s": dt,
         "full_steps": run.full_steps,
         "residual": small.certificate().largest_residual,
-        **march.account.sums.columns(),
+        **sums[-1].columns(),
         "cpu_s": time.process_time() - began,
     }
     return arrays, attributes

@@ -158,9 +158,17 @@ def sweeps(model: Model, law: BondLaw, case: LoadCase, numerics: Numerics, optio
     from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
     from asphalt_nscd.nscd.stepping.integrator import March
 
-    state = CondensedState.rest_state(model.system, law)
+    system = model.system
+    in_sixes = system.place is None or (system.place == np.arange(system.mass.size)).all()
+    # a sweep asks six numbers of each body, and divides by its mass
+    if not in_sixes or not system.mass[system.free].all():
+        raise InputError(
+            f"{model.name}: the method sweeps moves spheres and one head that has a mass; choose the method reduced or "
+            "condensed."
+        )
+    state = CondensedState.rest_state(system, law)
     tolerance, most = numerics.tolerance, numerics.most_sweeps
-    stepper = SweepingStepper(model.system, law, numerics.time_step, state, tolerance, most)
+    stepper = SweepingStepper(system, law, numerics.time_step, state, tolerance, most)
     run = _follow(
         March(stepper, Scheme(), law, numerics.time_step, account=False), model, case, numerics, options
     )

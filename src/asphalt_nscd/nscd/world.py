@@ -64,7 +64,7 @@ class WorldBonds:
 class Surroundings:
     """Planes, contact law and gravity that the spheres of a world meet.
 
-    `plane_point` (p, 3) in m, `plane_normal` (p, 3) pointing to the spheres; `gravity` in m/s2.
+    `plane_point` (p, 3) in m, `plane_normal` (p, 3) unit vectors that point to the spheres; `gravity` in m/s2.
     """
 
     plane_point: np.ndarray
@@ -90,6 +90,9 @@ class World:
         around: Surroundings,
         dt: float,
     ) -> None:
+        # asked so that NaN is refused; a bond of no strength would break for ever
+        if not (bonds.strength > 0.0).all():
+            raise ValueError("strength: each bond's must be greater than zero; leave weaker bonds out.")
         self.position, self.radius, self.mass = position.copy(), radius, mass.ravel()
         self.bonds, self.law, self.around, self.dt = bonds, law, around, dt
         self.rotation = Rotation.from_quat(np.tile([0.0, 0.0, 0.0, 1.0], (radius.size, 1)))
@@ -148,6 +151,8 @@ class World:
             for _ in range(MOST_TURNS):
                 start = factor.solve(push + operator.T @ (scaled * (explicit - beyond)))
                 velocity = contacts.solve(start, factor, dt)
+                if not np.isfinite(velocity).all():
+                    raise ArithmeticError("the motion of a step is not finite")
                 position, rotation = self._moved(dt * velocity)
                 rate = (self._openings(position, rotation)[0] - opening) / dt
                 last, beyond = beyond, rate - operator @ velocity
@@ -160,8 +165,6 @@ class World:
                 break
             # one at a time: a break unloads some of the bonds that were overstressed beside it
             self.broken[worst] = True
-        if not np.isfinite(velocity).all():
-            raise ArithmeticError("the motion of a step is not finite")
         self._lose(stored)
         self._count(velocity, sigma, memory, rate, operator, contacts)
         self.position, self.rotation, self.velocity = position, rotation, velocity

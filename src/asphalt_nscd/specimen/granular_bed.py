@@ -162,16 +162,9 @@ class GranularBed:
         self._lowest = np.minimum.accumulate(low[::-1])[::-1] - self.position[-1, 2]
         self._involved = 0
 
-    def advance(
-        self, numerics: PouringNumerics, plane_velocity: np.ndarray | None = None
-    ) -> tuple[int, float]:
-        """Advance by one step; returns its sweeps and the relative change of the last one.
-
-        `plane_velocity` (p, 3) in m/s; None holds the planes at rest.
-        """
+    def advance(self, numerics: PouringNumerics) -> tuple[int, float]:
+        """Advance by one step; returns its sweeps and the relative change of the last one."""
         n, dt = self.radius.size, numerics.time_step
-        if plane_velocity is not None:
-            self.velocity[n:, :3] = plane_velocity
         self._involve(dt)
         speed = neighbours.speeds(self.velocity[:n])
         enough, penetration = numerics.most_sweeps, numerics.penetration
@@ -288,7 +281,8 @@ class GranularBed:
         """Energy of motion of the spheres [J]; spin counts with 2/5 of its surface velocity squared."""
         n = self.radius.size
         square = (self.velocity[:n, :3] ** 2).sum(axis=1) + 0.4 * (self.velocity[:n, 3:] ** 2).sum(axis=1)
-        return float(0.5 * (square / self.inverse_mass[:n]).sum())
+        moving = self.inverse_mass[:n] > 0.0  # the others are fixed
+        return float(0.5 * (square[moving] / self.inverse_mass[:n][moving]).sum())
 
     def contacts(self, below: float) -> tuple[np.ndarray, np.ndarray]:
         """Bodies (c, 2) and gaps (c,) [m] of the contacts with a gap smaller than `below` [m]."""

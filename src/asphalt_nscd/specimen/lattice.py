@@ -13,11 +13,12 @@ def random_lattice(
     """Positions (n, 3) and radii (n,) [m] of spheres strewn over a cubic lattice, ordered by height.
 
     `diameters` (c,) and `box` (length, width, height) in m; `counts` (c,) are the spheres of each diameter. The lattice
-    constant is the largest diameter, widened to fit the box. The paper's 14 160 spheres outnumber its at most 8 000
-    cells, so a cell holds either one sphere or up to eight of those that fit into its octants; the smallest sphere
-    always does.
+    constant is the largest diameter of a sphere, widened to fit the box. The paper's 14 160 spheres outnumber its at
+    most 8 000 cells, so a cell holds either one sphere or up to eight of those that fit into its octants.
     """
-    diameters, counts = np.asarray(diameters, float), np.asarray(counts, int)
+    counts = np.asarray(counts, int)
+    # a size of which there is no sphere takes no room
+    diameters, counts = np.asarray(diameters, float)[counts > 0], counts[counts > 0]
     size = np.asarray(box, float)
     # a box as wide as a whole number of grains has room for them, however the quotient rounds
     shape = np.floor(size / diameters.max() + 1e-9).astype(int)
@@ -56,7 +57,7 @@ def random_lattice(
 def _place(
     cells: np.ndarray,
     shape: np.ndarray,
-    cell: float,
+    cell: np.ndarray,
     radii: np.ndarray,
     parts: int,
     corner: np.ndarray,

@@ -15,8 +15,6 @@ from asphalt_nscd.measurements.shape import Plate, Shape
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
 from asphalt_nscd.specimen.power_diagram import Region, frames, power_diagram
 
-"""What the area of a bond is: pi rmin^2 of Eqs. (30)-(33), or its facet of the power diagram."""
-
 
 @dataclass(frozen=True)
 class Network:

@@ -83,7 +83,7 @@ def bending_system(
 
     The head is a thin plate of the mobile mass; its other two translations are free, its rotation is "free" or
     "blocked". Plate bonds do not yield. `poisson` is of Eqs. (8)-(11), for area "paper"; `kt_over_kn` is for "facets".
-    `yield_stress` acts on the area of a bond [Pa], `friction` where the gap of a broken bond closes; `gravity` in m/s2.
+    `yield_stress` acts on the area of a bond [Pa], `friction` where a gap closes; `gravity` in m/s2.
     Refuses a blocked head where the test turns the specimen at its clamps.
     """
     n, geometry, network = specimen.radius.size, specimen.geometry, specimen.network

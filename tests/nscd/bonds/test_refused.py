@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
+from asphalt_nscd.nscd.stepping.gauss_seidel_stepping import SweepingStepper
+from asphalt_nscd.nscd.stepping.reduced_model import ReducedModel, ritz_basis
 
 
 @pytest.mark.parametrize("strength", [0.0, -1.0, np.nan])
@@ -31,9 +33,17 @@ def test_friction_that_drives(beam_system):
         replace(beam_system, friction=-1.0)
 
 
-def test_a_motion_beyond_all_numbers_ends(beam_system, quick_law):
+def test_a_reduced_model_of_bodies_that_touch(beam_system):
+    """The share of no gap that closes is infinite, or none at all."""
+    touching = replace(beam_system, gap=0.0 * beam_system.gap)
+    with pytest.raises(ValueError, match=r"^gap: the reduced model counts shares of gaps"):
+        ReducedModel(touching, ritz_basis(touching, 1))
+
+
+@pytest.mark.parametrize("kind, options", [(CondensedStepper, ()), (SweepingStepper, (1e-4, 50))])
+def test_a_motion_beyond_all_numbers_ends(beam_system, quick_law, kind, options):
     state = CondensedState.rest_state(beam_system, quick_law)
-    stepper = CondensedStepper(beam_system, quick_law, 1e-4, state)
+    stepper = kind(beam_system, quick_law, 1e-4, state, *options)
     with (
         np.errstate(over="ignore"),
         pytest.raises(ArithmeticError, match="the motion of a step is not finite"),

@@ -62,11 +62,11 @@ def test_naive_twin(restitution, recovery_speed, allowed_overlap, penetration, l
     )
     plane_velocity = np.zeros((6, 3))
     plane_velocity[5] = [0.05, 0.0, -0.3]
+    pile.velocity[radius.size :, :3] = plane_velocity
     position, velocity, impulses, points = pile.position.copy(), pile.velocity.copy(), {}, pile.plane_point
-    velocity[radius.size :, :3] = plane_velocity
     touched, most_slabs = 0, 0
     for _ in range(16):
-        pile.advance(settings, plane_velocity)
+        pile.advance(settings)
         slabs = slab_numbers(pile)
         most_slabs = max(most_slabs, *slabs.values())
         position, velocity, impulses = naive_step(

@@ -219,7 +219,7 @@ def _sweep_until_still(bodies, packed, motion, mobility, even, tolerance, most_s
             store(packed, block, 5, pz)
             changed = changed + (dx * dx + dy * dy + dz * dz)
             size = size + (px * px + py * py + pz * pz)
-        change = np.sqrt(total(changed) / total(size)) if total(size) > 0.0 else 0.0
+        change = 0.0 if total(size) == 0.0 else np.sqrt(total(changed) / total(size))
         if change < tolerance:
             return sweep + 1, change
     return most_sweeps, change

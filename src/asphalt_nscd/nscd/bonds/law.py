@@ -30,7 +30,7 @@ import numpy as np
 Form = Callable[[np.ndarray, np.ndarray], float]
 """<,> over the bonds [m]: a stress and an opening to an energy."""
 Stresses = tuple[np.ndarray, np.ndarray]
-"""Of bonds: sigma (...,) [Pa] and the memory (m, ...) of their law."""
+"""Of bonds: sigma (...,) [N/m] and the memory (m, ...) of their law."""
 
 
 class AnyLaw(ABC):

@@ -25,7 +25,7 @@ class BondedSystem:
 
     Degrees of freedom (d,): three translations [m] and three rotations [rad] of each moving body. `operator` is G (3 b,
     d), `weight` w (3 b,) in m, `mass` (d,) in kg or kg m2, constant `load` (d,) in N or N m, `gap` (b,) in m,
-    `strength` (b,) the yield force in tension and in shear [N]; `friction` acts where the gap of a broken bond closes.
+    `strength` (b,) the yield force in tension and in shear [N]; `friction` acts where a gap closes.
     `position` (n, 3) [m] of the bodies serves multigrid; `place` (d,) is that among the six of all (None: the first).
     """
 

@@ -17,8 +17,9 @@ FORCE, WITH_COUPLE = 8, 11  # numbers of a contact, see slabs.Workspace
 class ContactLaw(NamedTuple):
     """Signorini's condition and Coulomb's friction, between spheres and with planes; and friction of rolling.
 
-    A couple of at most `rolling` R p resists the angular velocity between two bodies that press each other by p, with
-    1/R the sum of 1/radius, of which a plane adds none.
+    A sphere of no inverse mass, which is fixed, is a part of the walls. A couple of at most `rolling` R p resists the
+    angular velocity between two bodies that press each other by p, with 1/R the sum of 1/radius, of which a plane adds
+    none.
     """
 
     friction: float = 0.0
@@ -37,7 +38,7 @@ def new_impulse(law, contact, i, j, relaxation):
     """
     nx, ny, nz, px, py, pz, target, mass = contact
     # walls have no inverse mass; the driven one may have some, and stands alone in the last slab
-    friction = select_greater(j[3], zeros(), broadcast(law.friction), broadcast(law.wall_friction))
+    friction = select_greater(i[3] * j[3], zeros(), broadcast(law.friction), broadcast(law.wall_friction))
     vx, vy, vz = j[0] - i[0], j[1] - i[1], j[2] - i[2]
     surface_x, surface_y, surface_z = j[4] + i[4], j[5] + i[5], j[6] + i[6]
     mass = relaxation * mass

@@ -7,6 +7,8 @@ Anderson's mixing; a new tangent is factorised where that takes too long.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy import sparse
 from scipy.optimize import NoConvergence, anderson
@@ -38,6 +40,8 @@ class CompliantStepper(CondensedStepper):
         skeleton: Skeleton,
         tolerance: float,
     ) -> None:
+        # a bond that broke would stay in the matrices below
+        system = replace(system, strength=np.full_like(system.strength, np.inf))
         super().__init__(system, law, dt, state)
         self.skeleton, self.tolerance, self.grip = skeleton, tolerance, Grip.rest(skeleton)
         self._rows = system.operator[skeleton.rows].tocsr()

@@ -4,8 +4,8 @@ Putting sigma+ = (b - G v+)/S into the equations of motion gives
 
     (M + dt G^T w/S G) v+ = M v- + dt f + dt G^T w/S b
 
-whose matrix is constant while no bond breaks. Broken bonds whose gap closes are frictional
-contacts, solved by Gauss-Seidel on their Delassus operator.
+whose matrix is constant while no bond breaks. Where a gap closes, of a broken bond or a sound one, there is a
+frictional contact; contacts are solved on their Delassus operator.
 """
 
 from __future__ import annotations

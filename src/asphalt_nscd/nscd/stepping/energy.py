@@ -63,8 +63,9 @@ class Energies:
 class EnergyAccount:
     """Keeps the energy account of one run; the stepper may be exchanged between steps."""
 
-    def __init__(self, law: AnyLaw) -> None:
-        self.law, self.sums = law, Energies()
+    def __init__(self, law: AnyLaw, by_force: bool = False) -> None:
+        """by_force: the clamp is a means to command a force; the work is then that on the head."""
+        self.law, self.sums, self._by_force = law, Energies(), by_force
         self._broken = 0
 
     def count(
@@ -87,7 +88,9 @@ class EnergyAccount:
         for name in new:
             sums.numerical += scale * taken[name] - (new[name] - old[name])
             setattr(sums, name, new[name])
-        sums.actuator += scale * force * (after.actuator - base.actuator)
+        head, start = (state.values["displacement"][of.head] for state in (after, base))
+        moved = head - start if self._by_force else after.actuator - base.actuator
+        sums.actuator += scale * force * moved
         at_end, rate = after.values, (after.values["memory"] - base.values["memory"]) / stepper.dt
         sums.dashpots += dt * self.law.dissipated(of.strain, at_end["sigma"], at_end["memory"], rate)
         sums.friction += dt * stepper.devices.guide_friction * abs(after.values["velocity"][of.head])
@@ -108,7 +111,7 @@ class EnergyAccount:
         places = [(h.values["displacement"][of.head], h.values["velocity"][of.head]) for h in (x, y)]
         (at, speed), (at_other, speed_other) = places
         devices = spring * at * at_other + mass * speed * speed_other
-        if clamp:
+        if clamp and not self._by_force:
             devices += (x.actuator - at) * (y.actuator - at_other) / clamp
         return {
             "kinetic": factor * of.inertia(one["velocity"], other["velocity"]),

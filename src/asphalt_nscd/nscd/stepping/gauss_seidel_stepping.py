@@ -59,6 +59,8 @@ class SweepingStepper:
         reaction, velocity, sweeps, change = self._bonds.sweep_until_still(
             explicit, reaction, velocity, self.tolerance, self.most_sweeps
         )
+        if not np.isfinite(velocity).all():
+            raise ArithmeticError("the motion of a step is not finite")
         self.sweeps += sweeps
         self.largest_change = max(self.largest_change, change)
         inertia = system.mass[system.driven] * (driven_velocity - state.velocity[system.driven]) / dt

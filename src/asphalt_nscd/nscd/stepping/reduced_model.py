@@ -155,6 +155,8 @@ class ReducedModel:
         broken: Sequence[int] = (),
         projection: Projection | None = None,
     ) -> None:
+        if not (system.gap > 0.0).all():
+            raise ValueError("gap: the reduced model counts shares of gaps, so that none may be zero.")
         self.system, self.basis = system, basis
         small = Projection.of(system, basis, broken) if projection is None else projection
         self.mass, self.stiffness, self.load = small.mass, small.stiffness, small.load
