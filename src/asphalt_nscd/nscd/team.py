@@ -127,7 +127,6 @@ class _Member(threading.Thread):
         self._asleep, self._bell = False, threading.Semaphore(0)
         self.task: Task | None = None  # of a call; None: to end
         self._returned: tuple[Any, BaseException | None] = None, None
-        self.ended: BaseException | None = None  # what ended it before its time
         self.start()
 
     def wake(self) -> None:
@@ -148,18 +147,7 @@ class _Member(threading.Thread):
         return value
 
     def run(self) -> None:
-        """Answer one call after another, until one has no task; should it end before, none waits for it."""
-        try:
-            self._answer_calls()
-        except BaseException as failure:  # beside its kernel, as where memory runs out
-            self._returned = None, failure
-            self.ended = failure
-            # first ended, then a look: a task that comes in between is refused by who gave it
-            if (task := self.task) is not None:
-                task[1][BROKEN_UP] = 1
-            self._answers[0], self.task = np.iinfo(np.int64).max, None
-
-    def _answer_calls(self) -> None:
+        """Answer one call after another, until one has no task."""
         number, called = 1, _reached(self._calls, 0, 1, AWAKE)
         while True:
             while not called:
@@ -214,8 +202,6 @@ class Team:
         for other in self._others:
             other.wait(int(self._calls[0]))  # of a call that ended by the failure of another
             other.task = task
-            if task and other.ended:
-                raise other.ended
             other.wake()
         # compiled, because members that wait for Python's lock fall asleep: 7 us a call, not 88
         _call(self._calls, barrier, members)
