@@ -16,8 +16,8 @@ from asphalt_nscd.nscd.compiled import compiled
 from asphalt_nscd.nscd.lanes import WIDTH, aligned, gather, load, scatter, store, total, zeros
 
 SYMMETRIC = np.array([0, 0, 0, 1, 1, 2]), np.array([0, 1, 2, 1, 2, 2])  # rows, columns of six entries
+# Bonds among which those of a block are looked for: many enough to fill blocks, few enough to keep their order
 WINDOW = 256
-"""Bonds among which those of a block are looked for: many enough to fill blocks, few enough to keep their order."""
 
 
 class PackedBonds:

@@ -27,10 +27,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+# <,> over the bonds [m]: a stress and an opening to an energy
 Form = Callable[[np.ndarray, np.ndarray], float]
-"""<,> over the bonds [m]: a stress and an opening to an energy."""
-Stresses = tuple[np.ndarray, np.ndarray]
-"""Of bonds: sigma (...,) [N/m] and the memory (m, ...) of their law."""
+Stresses = tuple[np.ndarray, np.ndarray]  # of bonds: sigma (...,) [N/m] and the memory (m, ...) of their law
 
 
 class AnyLaw(ABC):

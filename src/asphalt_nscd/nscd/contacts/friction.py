@@ -18,8 +18,8 @@ from asphalt_nscd.nscd.contacts.newton import refine
 from asphalt_nscd.nscd.contacts.problem import AnyMatrix, ContactProblem
 from asphalt_nscd.nscd.contacts.proximal import proximal_points
 
+# Start and balance of the paths, tried in turn: no single choice leads through every rock pile
 PATHS = ((3.0, 0.0), (10.0, 0.3), (10.0, 1.0), (100.0, 0.3), (1000.0, 0.0))
-"""Start and balance of the paths, tried in turn: no single choice leads through every rock pile."""
 
 FINEST = 1e-14  # tolerance: rounding keeps most problems from smaller errors, and all methods would be tried in vain
 FIRST_REFINEMENT = 1e-3  # error from which Newton's method may see the right statuses

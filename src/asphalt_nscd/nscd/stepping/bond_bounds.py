@@ -11,12 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-MARGIN = 1e-9
-"""Relative; sums of a few dozen terms round by 1e-14."""
+MARGIN = 1e-9  # relative; sums of a few dozen terms round by 1e-14
 
+# Bonds listed in an excerpt: the first by yield in the driven motion, and by the next coordinate, which is that of
+# the load if there is one; by each other coordinate; by their gap, and by its closing in the driven motion
 LEADING, OTHERS, NARROW = 1500, 30, 300
-"""Bonds listed in an excerpt: the first by yield in the driven motion, and by the next coordinate, which is that of the
-load if there is one; by each other coordinate; by their gap, and by its closing in the driven motion."""
 
 
 class BeyondExcerpt(Exception):

@@ -23,8 +23,7 @@ from asphalt_nscd.nscd.stepping.bond_bounds import BondBounds
 from asphalt_nscd.nscd.stepping.projection import Projection, rows_of
 
 DEPENDENT = 1e-9  # part of a direction that is new, at most, where it is left out
-SHIFT = 1e-2
-"""m/kg, S/dt of a typical law: for it, the first step from rest or after a break is exact."""
+SHIFT = 1e-2  # m/kg, S/dt of a typical law: for it, the first step from rest or after a break is exact
 
 
 def shifted_factor(system: BondedSystem) -> SuperLU | Multigrid:

@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-DONE, OUTSIDE_ENVELOPE, YIELD, CLOSED_GAP, RESIDUAL = range(5)
-"""Why steps ended."""
+DONE, OUTSIDE_ENVELOPE, YIELD, CLOSED_GAP, RESIDUAL = range(5)  # why steps ended
 
 
 class ReducedRun(NamedTuple):

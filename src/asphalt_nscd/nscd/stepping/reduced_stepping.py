@@ -30,15 +30,14 @@ if TYPE_CHECKING:  # sparse matrices, which take as long to import as a test wit
 
 Answer = TypeVar("Answer")
 
+# Vectors added at a violation: the correction of the refused step, and those its inertia will need. Doubled at every
+# further violation, since each costs a projection of the whole system
 FIRST_ENRICHMENT, LARGEST_ENRICHMENT = 4, 16
-"""Vectors added at a violation: the correction of the refused step, and those its inertia will need.
-Doubled at every further violation, since each costs a projection of the whole system."""
 
+# After these the basis has some 500 vectors, and full steps are cheaper in time and memory
 MOST_ENRICHMENTS = 30
-"""After these the basis has some 500 vectors, and full steps are cheaper in time and memory."""
 
-FAR = 16.0
-"""Growth of the envelope as long as no bond comes near yield within it."""
+FAR = 16.0  # growth of the envelope as long as no bond comes near yield within it
 
 
 @dataclass
