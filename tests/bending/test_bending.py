@@ -275,9 +275,9 @@ def test_result_file(folder, model):
 
 def test_velocity_profile(folder, model, beam):
     """Mean velocities of layers against those of the spheres in the full system."""
-    simulate(files(folder, "profile.h5"), 15.0, small(1.2), Numerics(DT, 0))
+    simulate(files(folder, "profile.h5"), 15.0, small(1.24), Numerics(DT, 0))
     arrays = load(folder / "profile.h5", "test").arrays
-    assert arrays["profile/time_s"][[0, -1]] == pytest.approx([0.2 / FREQUENCY + DT, 1.2 / FREQUENCY])
+    assert arrays["profile/time_s"][[0, -1]] == pytest.approx([0.24 / FREQUENCY + DT, 1.24 / FREQUENCY])
     height, speed = arrays["profile/height_m"], arrays["profile/velocity_m_s"]
     assert height.size == LAYERS and speed.shape == (arrays["profile/time_s"].size, height.size)
     assert arrays["profile/spheres"].sum() == beam.radius.size

@@ -310,8 +310,8 @@ def _velocity_profile(layers: LayerHeights, record: Record, frequency: float) ->
     """Mean velocity of the spheres along the drive in layers of equal height, over the last cycle."""
     if record.velocity is None:
         return {}
-    # one whole cycle: Fig. 8 compares the means of layers at equal phases
-    last = np.flatnonzero(record.time > record.time[-1] - 1.0 / frequency)
+    # one whole cycle, however its start rounds: Fig. 8 compares the means of layers at equal phases
+    last = np.flatnonzero(record.time > record.time[-1] - (1.0 - 1e-9) / frequency)
     taken = last[np.linspace(0, last.size - 1, min(PROFILE_SAMPLES, last.size)).astype(int)]
     return {
         "profile/height_m": layers.height,
