@@ -101,10 +101,9 @@ def path_run(
 ) -> Histories:
     """Follow any path of the actuator in one call; `driven` (n,) in m at the ends of steps of `time_step` in s."""
     stepper = _reduced_stepper(model, law, time_step, devices)
-    layers = model.along
     try:
         force, coordinates = stepper.run(driven)
-        run = Histories(force, coordinates @ layers, stepper.state.broken)
+        run = Histories(force, _layer_means(model, stepper, coordinates), stepper.state.broken)
         if run.broken and not model.whole.is_whole(run.broken):
             from asphalt_nscd.nscd.stepping.integrator import March
 
@@ -122,9 +121,17 @@ def path_run(
         march = March(full, Scheme(), law, time_step, place, account=False)
         run = march_along(march, model.whole, driven[done:], options, small=stepper)
         run.force = np.concatenate([accepted.force, run.force])
-        run.velocity = np.concatenate([accepted.velocity @ layers, run.velocity])
+        run.velocity = np.concatenate([_layer_means(model, stepper, accepted.velocity), run.velocity])
     options.progress(driven.size, driven.size)
     return _certified(stepper, run)
+
+
+def _layer_means(model: Model | ModelExcerpt, stepper: ReducedStepper, coordinates: Vector) -> Vector:
+    """Mean velocities of the layers (n, l) [m/s] by coordinates (n, k); a break has widened the basis."""
+    along = model.along
+    if coordinates.shape[1] > len(along):
+        along = (model.whole.layers.mean @ stepper.model.basis).T
+    return np.asarray(coordinates @ along)
 
 
 def _certified(stepper: ReducedStepper, run: Histories) -> Histories:

@@ -129,7 +129,7 @@ class ReducedStepper:
     def run(self, driven: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Force of the actuator (n,) [N] that follows `driven` (n,) [m], one a step; FullSystemNeeded if it cannot.
 
-        With velocity coordinates (n, k) of the basis as it was at the call.
+        With velocity coordinates (n, k) of the basis as it is in the end; what it got on the way came behind the rest.
         """
         force, velocity = np.empty(driven.size), np.zeros((driven.size, self._part.size))
         done = 0
@@ -149,6 +149,7 @@ class ReducedStepper:
             if code == YIELD:
                 self.state.broken.append(bond)
             self._enrich(code)
+            velocity = _widened(velocity, self._part.size - velocity.shape[1])
 
     def move(self, start: float, end: float) -> float:
         """Force of the actuator [N] in one step, in which it moves from `start` to `end` [m]."""
