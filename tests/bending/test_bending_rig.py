@@ -9,11 +9,12 @@ import pytest
 from theory.specimens import save_specimen
 
 from asphalt_nscd.bending.bending_test import TestFiles, run_test, simulate
-from asphalt_nscd.bending.case import LoadCase
+from asphalt_nscd.bending.case import LoadCase, RunOptions, require_possible
 from asphalt_nscd.bending.condensing import condense
+from asphalt_nscd.bending.further_settings import Cycling, Fall, FatigueLaw, Hold, Ramp
 from asphalt_nscd.bending.model import read_model
 from asphalt_nscd.bending.rig import Rig, write_rig
-from asphalt_nscd.bending.settings import Bonds, Numerics
+from asphalt_nscd.bending.settings import Bonds, Load, Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.twopoint import form_factor, mass_factor
@@ -147,13 +148,36 @@ def test_before_the_channel_catches_up_it_shows_rest(model):
     np.testing.assert_allclose(record.displacement[10:], delayed, rtol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("method", "rig", "words"),
-    [
-        ("harmonic", Rig(guide_friction=1.0), "the oscillation is not harmonic"),
-        ("sweeps", Rig(head_mass=1.0), "cannot simulate devices at the head"),
-    ],
-)
-def test_methods_that_cannot_take_a_rig(folder, method, rig, words):
+MOST = 5_000_000
+IMPOSSIBLE = {
+    "friction in harmonics": ({"rig": Rig(guide_friction=1.0)}, {"method": "harmonic"}, 0, "is not harmonic"),
+    "devices in sweeps": ({"rig": Rig(head_mass=1.0)}, {"method": "sweeps"}, 0, "cannot simulate devices"),
+    "scheme of sweeps": ({}, {"method": "sweeps", "scheme": "fitted"}, 0, "sweeps has no scheme 'fitted'"),
+    "scheme of harmonics": ({}, {"method": "harmonic", "scheme": "fitted"}, 0, "harmonic has no scheme"),
+    "frames of harmonics": ({}, {"method": "harmonic"}, 2, "harmonic keeps no frames"),
+    "force on a rig": ({"by_force": True, "rig": Rig(channel_delay=1e-3)}, {}, 0, "commanded force goes without"),
+    "force in sweeps": ({"by_force": True}, {"method": "sweeps"}, 0, "commanded force goes without"),
+    "steps": ({"cycles": 1.0}, {"time_step": 1e-7, "rest_steps": MOST - 250_000 + 1}, 0, "5e.06 steps of 1e-07 s"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", IMPOSSIBLE)
+def test_what_a_method_cannot_do_is_refused(name):
+    """Beside it, what differs in one thing: another method, or no rig, or one step fewer, is taken."""
+    case, numerics, frames, words = IMPOSSIBLE[name]
+    asked, how = LoadCase(FREQUENCY, 1e-6, **case), Numerics(**numerics)
     with pytest.raises(InputError, match=words):
-        simulated(folder, rig, method)
+        require_possible(asked, how, RunOptions(frames=frames))
+    fewer = replace(how, method="reduced", rest_steps=how.rest_steps - 1)
+    require_possible(replace(asked, rig=Rig()) if asked.by_force else asked, fewer, RunOptions(frames=frames))
+
+
+def test_who_states_nothing_tests_as_all_published_results_were_made():
+    assert Bonds() == Bonds("free", 0.35, 1.0, 2.7e6, 0.7)
+    assert Numerics() == Numerics(5e-5, 1000, "reduced", "euler", 1e-4, 50)
+    assert Load() == Load(None, 5.0, Rig(), 0, None) and LoadCase(1.0) == LoadCase(
+        1.0, 63e-6, 5.0, Rig(), False
+    )
+    assert Hold() == Hold(10.0, 1000, None, None) and Ramp() == Ramp(0.1, 400, None, None, 0)
+    assert Cycling() == Cycling(None, 10e3, 0.5, True, 10, 5, True, 32)
+    assert Fall() == Fall(0.02, 75.0, 0.5, 0.5, 2e-4, 50, 0.0) and FatigueLaw() == FatigueLaw(100e-6, 5.0)

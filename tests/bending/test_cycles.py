@@ -8,11 +8,13 @@ import numpy as np
 import pandas as pd
 import pytest
 from click.testing import CliRunner
+from scipy.spatial import ConvexHull
 from theory.specimens import jittered_beam
 
 from asphalt_nscd.bending import cycles
+from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.bending.condensing import condensed
-from asphalt_nscd.bending.cycles import cycle
+from asphalt_nscd.bending.cycles import cycle, skeleton_of, stuck_stiffness
 from asphalt_nscd.bending.further_settings import Cycling
 from asphalt_nscd.bending.model import model_of
 from asphalt_nscd.bending.settings import Bonds
@@ -25,6 +27,30 @@ LAW = Burgers(0.24e9, 0.04e9, 0.48e9, 0.008e9)
 CONTENT = condensed(jittered_beam(shape=(3, 2, 13), area="facets"), "beam", Bonds())
 
 
+def test_contacts_are_the_least_gaps_and_their_forces_carry_the_pressure():
+    """p = sum F l / (3 V), V of the centres; stuck, they stand beside the bonds of the beam, by a dense matrix."""
+    model = model_of(Record(*CONTENT, ""))
+    first, second, radius = (model.shape[name] for name in ("first", "second", "radius_m"))
+    position, n, system = model.shape["position_m"], model.spheres, model.system
+    pairs = np.flatnonzero((first < n) & (second < n))
+    length = np.linalg.norm(position[first[pairs]] - position[second[pairs]], axis=1)
+    gap = system.gap[pairs] / length
+    near = gap < gap.min() + 0.005
+    found = skeleton_of(model, 3e5, 0.4)
+    assert found.bonds.tolist() == pairs[near].tolist() and found.friction == 0.4
+    one, two = radius[first[found.bonds]], radius[second[found.bonds]]
+    np.testing.assert_allclose(found.radius, 1.0 / (1.0 / one + 1.0 / two), rtol=1e-13)
+    carried = found.normal_force(found.overlap) @ length[near]
+    assert carried == pytest.approx(3.0 * 3e5 * ConvexHull(position).volume, rel=1e-12)
+    law, omega = bond_law(LAW), 60.0
+    weight = system.weight * law.discrete_modulus(omega, 0.0)
+    weight[found.rows] += found.stiffness(found.overlap)
+    rows = system.operator.toarray()
+    whole = rows.T @ (weight[:, None] * rows) - omega**2 * np.diag(system.mass)
+    expected = 1.0 / np.linalg.inv(whole)[system.driven, system.driven]
+    assert stuck_stiffness(system, law, found, omega) == pytest.approx(expected, rel=1e-8)
+
+
 def test_a_beam_bends_with_contacts_and_its_file_is_that_of_the_command(monkeypatch, tmp_path):
     monkeypatch.setattr(cycles, "TOUCHING", 0.1)  # grains of this beam are apart
     model = model_of(Record(*CONTENT, ""))
@@ -35,6 +61,15 @@ def test_a_beam_bends_with_contacts_and_its_file_is_that_of_the_command(monkeypa
     assert slight.attrs["contacts"] > 10 and abs(strong.attrs["energy_error"]) < 0.01
     assert slight.attrs["E_MPa"] == pytest.approx(slight.attrs["E_stuck_MPa"], rel=0.01)
     assert strong.attrs["phase_deg"] > strong.attrs["phase_stuck_deg"] + 0.01
+    omega, shape = 20.0 * np.pi, model.geometry
+    stuck = strong.attrs["E_stuck_MPa"] * 1e6 * np.exp(1j * np.radians(strong.attrs["phase_stuck_deg"]))
+    stuck = stuck / shape.form_factor() - shape.mass_factor() * omega**2
+    np.testing.assert_allclose(strong["time_s"], np.arange(129) / 320.0, atol=1e-15)
+    pressing = 1e-4 * abs(stuck) * np.sin(omega * strong["time_s"])
+    np.testing.assert_allclose(strong["force_N"], pressing, atol=1e-9 * abs(stuck * 1e-4))
+    usual = Cycling(haversine=False, all_cycles=1, read_cycles=1)
+    least = cycle(model, LAW, 10.0, usual)["force_N"].max()
+    assert least == pytest.approx(shape.usual_amplitude() * abs(stuck), rel=1e-9)
     weak = replace(model, system=replace(model.system, strength=1e-9 * model.system.strength))
     programme = Cycling(amplitude_m=1e-4, haversine=False, all_cycles=4, read_cycles=2)
     assert cycle(weak, LAW, 10.0, programme).equals(strong)  # bonds of such a test do not break

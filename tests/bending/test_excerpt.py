@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from theory.specimens import save_specimen
+from theory.specimens import jittered_beam, save_specimen
 
 from asphalt_nscd.bending.bending_test import TestFiles, read_subject, simulate
 from asphalt_nscd.bending.case import LoadCase
@@ -130,3 +130,6 @@ def test_so_many_bonds_are_made_ready_to_break(folder):
     for wanted, ready in ((0, 0), (2, 2), (None, BONDS)):
         condense(folder / "beam.h5", Bonds(yield_Pa=2.7e6), folder / "ready.h5", stand_by=wanted)
         assert load(folder / "ready.h5", "model").arrays["stand_by/bonds"].size == ready
+    save_specimen(folder / "facets.h5", jittered_beam(area="facets"))
+    condense(folder / "facets.h5", Bonds(), folder / "ready.h5")
+    assert load(folder / "ready.h5", "model").arrays["stand_by/bonds"].size == 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -10,7 +11,7 @@ import pytest
 from theory.specimens import QUICK_LAW, jittered_beam, save_specimen
 
 import asphalt_nscd as an
-from asphalt_nscd.bending.fall import fell, released
+from asphalt_nscd.bending.fall import PARTS, _frame, _row, _told, fell, released
 from asphalt_nscd.bending.further_settings import Fall
 from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.cli import main
@@ -32,7 +33,12 @@ def test_it_starts_at_rest_over_the_floor_in_two_pieces(small):
     assert world.mass.reshape(-1, 6)[:, 0].sum() == pytest.approx(small.geometry.mass)
     foot = small.position[:, 2] < 0.5 * small.geometry.h
     assert len(set(world.fragments()[foot])) == 1 and len(set(world.fragments().tolist())) == 2
-    assert not released(small, QUICK_LAW, Fall(sawn=0.0), Bonds()).broken.any()
+    whole = released(small, QUICK_LAW, Fall(sawn=0.0), Bonds(yield_Pa=3e6, kt_over_kn=0.5))
+    inside = np.maximum(small.network.first, small.network.second) < small.radius.size
+    assert not whole.broken.any() and whole.bonds.first.tolist() == small.network.first[inside].tolist()
+    np.testing.assert_allclose(whole.bonds.strength, 3e6 * small.network.area[inside], rtol=1e-13)
+    weight = whole.weight.reshape(-1, 3)
+    np.testing.assert_allclose(weight[:, 1:] / weight[:, :1], 0.5, rtol=1e-13)
     clamped = jittered_beam(shape=(2, 2, 12), area="facets", test=Beam.test)
     with pytest.raises(an.InputError, match="plates within it hold its parts together"):
         released(clamped, QUICK_LAW, Fall(), Bonds())
@@ -53,6 +59,24 @@ def test_a_step_without_an_answer_says_when(small, monkeypatch):
         an.InputError, match="^fall: after 0 s couples do not settle; give a shorter time step"
     ):
         fell(small, QUICK_LAW, Fall(duration=0.01, frames=2))
+
+
+def test_what_is_written_of_an_instant_and_of_the_account():
+    """The fastest sphere by its linear velocity; tension is positive; shares are of the energy set free."""
+    energies = SimpleNamespace(load=-4.0, error=0.02, **{name: k + 1.0 for k, name in enumerate(PARTS)})
+    world = SimpleNamespace(
+        time=0.3, energies=energies, position=np.full((2, 3), 5.0), radius=np.ones(2), weight=np.arange(1.0, 7.0),
+        velocity=np.array([3.0, 0, 4, 9, 9, 9, 0, 1, 0, 9, 9, 9]), sigma=np.array([-2.0, 3, 4, 5, -6, 7]),
+        broken=np.array([True, True]), fragments=lambda: np.array([0, 1]),
+    )  # fmt: skip
+    row, frame = _row(world), _frame(world, np.full((2, 3), 3.5))
+    assert (row["time_s"], row["speed_m_s"], row["load_J"], row["springs_J"]) == (0.3, 5.0, -4.0, 2.0)
+    assert frame["bond_force_N"].tolist() == [[2, 6, 12], [-20, -30, 42]]
+    assert (frame["displacement_m"] == 1.5).all() and frame["velocity_m_s"].tolist() == [[3, 0, 4], [0, 1, 0]]
+    said = _told(world, Fall(time_step=1e-3), 1, 0.7)
+    assert (said["broken_bonds"], said["sawn_bonds"], said["fragments"], said["energy_J"]) == (1, 1, 2, 4.0)
+    assert [said[f"{name}_percent"] for name in PARTS] == [25.0 * (k + 1) for k in range(len(PARTS))]
+    assert (said["error_percent"], said["speed_m_s"], said["duration_s"]) == (0.5, 0.7, 0.3)
 
 
 @pytest.mark.slow

@@ -1,12 +1,12 @@
-"""Fatigue: two bonds by closed form, the power of the strain, and cycle jumps beside every cycle."""
+"""Fatigue of a specimen: the power of the strain, the profile, and cycle jumps beside every cycle."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from scipy import sparse
 
 from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.bending.fatigue import (
@@ -15,12 +15,12 @@ from asphalt_nscd.bending.fatigue import (
     largest_strain,
     largest_strain_at,
     profile_of,
+    table_of,
 )
 from asphalt_nscd.bending.further_settings import FatigueLaw
 from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.measurements.twopoint import Geometry
-from asphalt_nscd.nscd.bonds.fatigue import Jumps, remaining_stiffness, tire
-from asphalt_nscd.nscd.bonds.system import BondedSystem
+from asphalt_nscd.nscd.bonds.fatigue import FatigueHistory, Jumps, remaining_stiffness
 from asphalt_nscd.nscd.stepping.harmonic import driving_force
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.specimen.system import bending_system
@@ -28,48 +28,7 @@ from asphalt_nscd.specimen.system import bending_system
 PAPER = Geometry(b=0.025, B=0.056, e=0.025, h=0.25, mass=0.6, mobile_mass=0.235)
 # At 15 degC with viscosities lowered: from 40 Hz on transients are over in two cycles.
 QUICK = bond_law(Burgers(24.3e9, 0.06e9, 48.4e9, 0.077e9))
-FINE = Jumps(bond=0.001, growth=0.0, stiffness=0.002)
 LAW = FatigueLaw(endured=1e-3, exponent=4.0)
-
-
-def along_a_line(operator, strength) -> BondedSystem:
-    """Bonds whose normal components alone carry; the last degree of freedom is driven."""
-    operator = np.array(operator, float)
-    bonds, size = operator.shape
-    rows = np.zeros((3 * bonds, size))
-    rows[::3] = operator
-    return BondedSystem(
-        sparse.csr_matrix(rows), np.ones(3 * bonds), np.ones(size), np.zeros(size), size - 1,
-        np.zeros(bonds), np.array(strength, float), 0.0,
-    )  # fmt: skip
-
-
-def test_two_bonds_in_series_one_of_which_tires():
-    # D opens it to a / (2 - D): the cycles to D are the integral of (2 - D)^m, and half of the stiffness is left at 2/3
-    system = along_a_line([[1, 0], [-1, 1]], [1.0, np.inf])
-    course = tire(system, np.ones(2), LAW.rate, 1e-3, 0.5, FINE)
-    m = LAW.exponent
-    assert course.life() == pytest.approx(1e6 * (2 ** (m + 1) - (4 / 3) ** (m + 1)) / (m + 1), rel=2e-3)
-    assert course.damage == pytest.approx([2 / 3, 0.0], abs=2e-3)
-
-
-def test_of_two_bonds_side_by_side_the_shorter_is_lost_first():
-    system = along_a_line([[0, 1], [0, 1], [1, 0]], [1.0, 1.0, np.inf])  # the third holds what nothing pulls
-    course = tire(system, np.array([1.0, 2.0, 1.0]), LAW.rate, 1e-3, 0.3, FINE)
-    # the short one is lost after a million cycles, the long one has lost a sixteenth by then
-    at = np.interp(1e6, course.cycles, course.stiffness)
-    assert at == pytest.approx((1.0 - 1.0 / 16.0) / 2.0, abs=3e-3)
-    assert course.life(0.3) == pytest.approx(16e6 * 0.4, rel=5e-3) and course.lost[-1] == 1
-
-
-def test_a_bond_that_slides_tires_as_one_that_opens():
-    """Moved askew, by 0.6 along its normal and 0.8 across it, a bond lives as long as one moved along its normal."""
-    straight = along_a_line([[0, 1], [1, 0]], [1.0, np.inf])
-    rows = straight.operator.toarray()
-    rows[:3, 1] = [0.6, 0.0, 0.8]
-    askew = replace(straight, operator=sparse.csr_matrix(rows))
-    lives = [tire(system, np.ones(2), LAW.rate, 1e-3, 0.5, FINE).life() for system in (straight, askew)]
-    assert lives == pytest.approx([0.5e6, 0.5e6], rel=2e-3)
 
 
 def test_largest_strain_is_that_of_the_beam():
@@ -86,7 +45,39 @@ def test_life_falls_by_the_power_of_strain_and_bonds_of_plates_do_not_tire(beam)
     assert one.life() / two.life() == pytest.approx(2.0**LAW.exponent, rel=1e-6)
     of_plates = np.maximum(beam.network.first, beam.network.second) >= beam.radius.size
     assert of_plates.any() and not one.damage[of_plates].any() and one.damage.max() == 1.0
-    assert profile_of(beam, one)["damage"].idxmax() < 10  # below the middle
+
+
+def test_the_first_jump_is_that_of_the_static_motion(beam):
+    """It takes 0.01 from the fastest bond, by its strain under the amplitude of bending theory."""
+    system = bending_system(beam, 0.35, 2.7e6, 0.7)
+    stiffness, motion = system.stiffness().toarray(), np.ones(system.mass.size)
+    motion[system.free] = -np.linalg.solve(
+        stiffness[np.ix_(system.free, system.free)], stiffness[system.free, system.driven]
+    )
+    opening = np.linalg.norm((system.operator @ motion).reshape(-1, 3), axis=1)
+    strains = 2e-4 / largest_strain(beam.geometry) * opening / beam.network.length
+    fastest = 1e-6 * (1e3 * strains[np.isfinite(system.strength)].max()) ** 4
+    assert LAW.rate(np.array([2e-3])) == pytest.approx([16e-6])
+    first = fatigue(beam, 2e-4, LAW, jumps=Jumps(0.01, 0.0, 1.0)).cycles[1]
+    assert first == pytest.approx(0.01 / fastest, rel=1e-5)
+
+
+def test_profile_and_table_of_a_history():
+    """Means over twentieths of the height; a bond at the very head is in the last; without bonds a layer is sound."""
+    point = np.array([[9.0, 9.0, z] for z in (0.0, 0.0499, 0.0501, 0.97, 1.0)]) * 0.2
+    specimen = SimpleNamespace(network=SimpleNamespace(point=point), geometry=SimpleNamespace(h=0.2))
+    history = FatigueHistory(
+        np.array([0.0, 9.0]), np.array([1.0, 0.5]), np.array([0, 2]), np.array([1.0, 0.5, 0.2, 0.4, 1.0])
+    )
+    profile = profile_of(specimen, history)
+    np.testing.assert_allclose(profile["height_share"], np.linspace(0.025, 0.975, 20))
+    np.testing.assert_allclose(profile["damage"], [0.75, 0.2, *[0.0] * 17, 0.7])
+    np.testing.assert_allclose(profile["lost"], [0.5, *[0.0] * 18, 0.5])
+    assert table_of(history).to_dict("list") == {
+        "cycles": [0.0, 9.0],
+        "stiffness": [1.0, 0.5],
+        "lost_bonds": [0, 2],
+    }
 
 
 def strain_for(cycles, specimen):

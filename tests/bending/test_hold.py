@@ -79,6 +79,13 @@ def test_what_breaks_is_told(prism):
     assert table.attrs["broken_bonds"] > 0 and "broke" in told(table)
     whole = hold(prism, QUICK, Hold(1e-3, 20, displacement_m=1.5e-8))
     assert table["E_MPa"].iloc[-1] < 0.9 * whole["E_MPa"].iloc[-1]
+    usual = hold(prism, QUICK, Hold(1e-3, 10))
+    assert (usual["displacement_m"] == prism.geometry.usual_amplitude()).all()
+    shown = prism.geometry.form_factor() * usual["force_N"] / usual["displacement_m"] / 1e6
+    np.testing.assert_allclose(usual["E_MPa"], shown, rtol=1e-12)
+    assert f"after 0.001 s: E = {shown.iloc[-1]:.4g} MPa, law {usual['E_law_MPa'].iloc[-1]:.4g} MPa" in told(
+        usual
+    )
 
 
 def test_a_crushed_specimen_is_told_before_its_contacts_are_solved():

@@ -54,6 +54,10 @@ def test_a_test_ends_once_a_fifth_of_the_bonds_broke_though_it_is_whole(make_bea
     beam.require_whole(more)
     with pytest.raises(InputError, match=rf"the specimen fails, {len(more)} of {beam.bonds} bonds broke"):
         full.on_break(more)
+    tenth = beam.bonds // 10
+    full.on_contact(range(tenth))
+    with pytest.raises(InputError, match=rf"is crushed, {tenth + 1} gaps of {beam.bonds} closed"):
+        full.on_contact(range(tenth + 1))
 
 
 @pytest.mark.parametrize("method", ["reduced", "condensed"])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -47,6 +49,11 @@ def test_the_record_goes_on_beyond_the_break(beam, pulled):
     assert 20 <= columns["broken_bonds"] < beam.bonds and "of 399 bonds broke" in told(columns)
     peak = int(np.argmax(np.abs(arrays["force_N"])))
     assert 5 < peak < 20 and abs(arrays["force_N"][-1]) < 0.02 * columns["peak_force_N"]
+    at_peak = [columns[name] for name in ("peak_force_N", "displacement_at_peak_m", "broken_at_peak")]
+    assert at_peak == [arrays[name][peak] for name in ("force_N", "displacement_m", "broken_bonds")]
+    assert columns["in_two"] == (not beam.is_whole(arrays["broken"])) and columns["time_step_s"] == 2.5e-4
+    assert f"at {1e6 * at_peak[1]:.4g} um" in told(columns)
+    assert "misses 0.2 %" in told({**columns, "energy_error": -0.002})
     assert (np.diff(arrays["broken_bonds"]) >= 0).all() and arrays["broken"].size == columns["broken_bonds"]
     np.testing.assert_allclose(arrays["displacement_m"], np.linspace(1e-6, 8e-5, 80), rtol=1e-12)
     assert abs(columns["energy_error"]) < 1e-9 and columns["residual"] < 1e-6
@@ -68,6 +75,14 @@ def test_each_break_is_that_of_an_exact_stepper(beam, pulled):
 def test_the_peak_at_half_the_step(beam, pulled):
     _, finer = ramp(beam, QUICK, Ramp(duration_s=0.02, steps=160, displacement_m=8e-5))
     assert finer["peak_force_N"] == pytest.approx(pulled[1]["peak_force_N"], rel=0.02)
+
+
+def test_who_states_no_end_pulls_by_twenty_usual_amplitudes(beam):
+    strong = replace(beam, system=replace(beam.system, strength=np.full_like(beam.system.strength, np.inf)))
+    arrays, columns = ramp(strong, QUICK, Ramp(duration_s=0.02, steps=10))
+    usual = beam.geometry.usual_amplitude()
+    np.testing.assert_allclose(arrays["displacement_m"], 2.0 * usual * np.arange(1, 11), rtol=1e-12)
+    assert columns["broken_bonds"] == 0 and not columns["in_two"]
 
 
 def test_a_force_that_is_commanded_ends_at_the_break(beam, pulled):

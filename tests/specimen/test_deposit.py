@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from asphalt_nscd.specimen import granular_bed as granular_bed
 from asphalt_nscd.specimen.deposit import REST_SPEED, PouringHistory, balance, settle, vibrate
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
-from asphalt_nscd.specimen.settings import Pouring, Vibration
+from asphalt_nscd.specimen.settings import Pouring, Surfaces, Vibration
 
 BOX = (0.021, 0.016, 0.07)
 
@@ -161,6 +162,40 @@ def test_settling_stops_in_time():
     assert (np.diff([done for _, done, _ in told]) > 0).all()
 
 
+def test_rest_is_four_calm_looks_in_a_row():
+    """Root mean square of the linear velocities of spheres alone; looks are 5 ms apart."""
+    speeds = iter([0.0, 1.3e-3, 1.3e-3, 1.5e-3, 1.3e-3, 0.0, 1.3e-3, 1.3e-3])
+    bed = SimpleNamespace(radius=np.ones(2), velocity=np.ones((3, 6)), time=0.0, steps=0)
+
+    def advance(numerics):
+        bed.time, bed.steps = bed.time + numerics.time_step, bed.steps + 1
+        if bed.steps % 10 == 0:
+            bed.velocity[:2, :3] = [[0.0, 0.0, next(speeds)], [0.0] * 3]
+
+    bed.advance = advance
+    settle(bed, PouringNumerics(time_step=5e-4), 1e-3, 1.0, silent, "")
+    assert bed.steps == 80
+
+
+def test_numerics_of_a_pouring_are_shares_of_the_smallest_radius():
+    """On them rest all published layers."""
+    assert PouringNumerics.of(np.array([2e-3, 1e-3]), 3e-4) == PouringNumerics(
+        time_step=3e-4, tolerance=2e-3, most_sweeps=300, falling_sweeps=9, penetration=2e-5,
+        falling_penetration=1e-4, skin=4e-4, margin=2e-5, recovery_speed=0.02, allowed_overlap=5e-6,
+    )  # fmt: skip
+
+
+def test_energy_weight_and_heights_of_two_spheres():
+    position, radius = np.array([[0.0, 0, 0.003], [0, 0, 0.01]]), np.array([2e-3, 1e-3])
+    bed = GranularBed.spheres_in_box(position, radius, BOX, 2600.0, ContactLaw())
+    mass = 2600.0 * 4 / 3 * np.pi * radius**3
+    bed.velocity[:2] = [[1.0, 2.0, 2.0, 0.0, 3.0, 4.0], [0.0, 0.0, -5.0, 1.0, 0.0, 0.0]]
+    bed.velocity[2:] = 9.0  # planes do not count
+    assert bed.kinetic_energy() == pytest.approx(0.5 * (mass @ [9.0 + 0.4 * 25.0, 25.0 + 0.4]), rel=1e-13)
+    assert bed.weight() == pytest.approx(9.81 * mass.sum(), rel=1e-13)
+    assert (bed.top(), bed.layer_height()) == pytest.approx((0.011, 2 * (8 * 0.003 + 0.01) / 9), rel=1e-13)
+
+
 @pytest.mark.parametrize("strong", [1.0, 30.0])
 def test_vibration_follows_the_layer_and_forces_no_grain_through_another(layer, strong):
     """In each period the wall rises as far as its stroke says above the layer, comes down on it and pushes
@@ -168,7 +203,7 @@ def test_vibration_follows_the_layer_and_forces_no_grain_through_another(layer, 
     shaken = copy(layer)
     area, n = BOX[0] * BOX[1], shaken.radius.size
     vibration = Vibration(1e-3, 50.0, 0.2)
-    tops, walls, pushes = [], [], []
+    tops, walls, pushes, touching, mass = [], [], [], [], 0.01 * shaken.weight() / 9.81
     advance = shaken.advance
 
     def watched(numerics):
@@ -177,19 +212,24 @@ def test_vibration_follows_the_layer_and_forces_no_grain_through_another(layer, 
         walls.append(shaken.plane_point[5, 2])
         lid = shaken._other == n + 5
         pushes.append(shaken.impulse[lid, 2].sum() / numerics.time_step)
+        touching.append(set(shaken.touching_wall().tolist()))
+        assert shaken.drive[1] == pytest.approx(strong * shaken.weight() * 2e-4, rel=1e-12)
+        assert 1.0 / shaken.inverse_mass[-1] == pytest.approx(mass, rel=1e-12)
         return result
 
     shaken.advance = watched
     history, numerics = PouringHistory(), PouringNumerics.of(shaken.radius, 2e-4)
     vibrate(shaken, numerics, vibration, strong * shaken.weight() / area, history, silent)
     tops, walls = np.array(tops).reshape(10, 100), np.array(walls).reshape(10, 100)
-    assert len(history.touched) == 10 and min(history.touched) > 0
+    periods = [len(set().union(*touching[100 * k : 100 * (k + 1)])) for k in range(10)]
+    assert history.touched == periods and min(periods) > 0
+    np.testing.assert_allclose(np.diff(history.time), 5e-3, rtol=1e-9)
+    np.testing.assert_array_equal(history.wall, walls.ravel()[24::25])
     tenth = tops[:, 0] + 0.5e-3 * np.cos(0.2 * np.pi)
     np.testing.assert_allclose(walls[:, 9], tenth, atol=1e-9)  # it kept up
     assert (walls.min(axis=1) < tops[:, 0]).all()  # and came down on the layer
     assert (np.array([height for height in history.wall]) >= walls.min()).all()
     # all it can give: its drive, and its momentum of a step; a little faster where it catches up with its drive
-    mass = 0.01 * shaken.weight() / 9.81
     most = 1.02 * strong * shaken.weight() + mass * 2 * np.pi * 50.0 * 0.5e-3 / 2e-4
     assert 0.2 * strong * shaken.weight() < np.abs(pushes).max() < most
     assert 0.0 < shaken.overlap < 0.1 * shaken.radius.min()
@@ -295,9 +335,9 @@ def test_a_layer_of_more_than_its_sweeps_can_carry_comes_to_rest():
     assert -layer.contacts(1e-6)[1].min() < 0.01 * layer.radius.min()
 
 
-def test_who_states_no_step_pours_at_that_of_these_tests():
+def test_who_states_nothing_pours_as_these_tests_and_shakes_as_the_paper():
     """Its CPU time and its overlaps stand in docs/benchmarks.md."""
-    assert Pouring(BOX, 1).time_step == 4e-4
+    assert Pouring(BOX) == Pouring(BOX, 0, Surfaces(0.2, None, 0.0, 0.0), Vibration(6e-3, 30.0, 1.0), 4e-4, 1)
 
 
 @pytest.mark.parametrize("spheres", [500, 14_160, 200_000])

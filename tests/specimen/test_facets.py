@@ -7,10 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.nscd.bonds.system import opening_operator
 from asphalt_nscd.specimen.network import bond_network, facet_network
-from asphalt_nscd.specimen.prism import cut_prism, pull
+from asphalt_nscd.specimen.prism import cut_prism, pull, pulled_system, stretched
 from asphalt_nscd.specimen.trimming import trim
 
 STRAIN = np.array([[1.0, 0.4, -0.7], [0.4, -0.6, 0.2], [-0.7, 0.2, 0.3]])
@@ -38,6 +39,27 @@ def test_plates_and_gaps(block):
     i, j = network.first[between], network.second[between]
     apart = np.linalg.norm(block.position[j] - block.position[i], axis=1)
     np.testing.assert_allclose(network.gap[between], apart - block.radius[i] - block.radius[j], atol=1e-16)
+
+
+def test_clamps_within_a_beam_cut_it(make_beam):
+    """A clamp takes the section from each side that has spheres; none is bonded through it, and cells fill the beam."""
+    beam = make_beam(shape=(3, 2, 12), area="facets", test=Beam.test)
+    network, n, h = beam.network, beam.radius.size, beam.geometry.h
+    section = beam.geometry.depth * beam.geometry.breadth
+    assert network.cell.sum() == pytest.approx(section * h, rel=1e-6)
+    for k, (level, sides) in enumerate(((h / 3, 2), (2 * h / 3, 2), (0.0, 1), (h, 1))):
+        own = network.second == n + k
+        sphere = network.first[own]
+        above = beam.position[sphere, 2] - level
+        areas = [network.area[own][above < 0].sum(), network.area[own][above > 0].sum()]
+        assert sorted(areas) == pytest.approx([section * (sides - 1), section], rel=1e-6)
+        np.testing.assert_allclose(network.length[own], np.abs(above), rtol=1e-10)
+        np.testing.assert_allclose(network.frame[own, 0, 2], -np.sign(above), atol=1e-10)
+        surface = np.abs(above) - (beam.radius[sphere] if sides == 1 else 0.0)
+        np.testing.assert_allclose(network.gap[own], surface, atol=1e-15)
+    between = network.second < n
+    part = np.digitize(beam.position[:, 2], [h / 3, 2 * h / 3])
+    assert (part[network.first[between]] == part[network.second[between]]).all()
 
 
 def residual(specimen, network, tangential):
@@ -81,6 +103,17 @@ def test_a_prism_of_facets_has_the_modulus_of_its_bonds(block):
     assert abs(paper[0] - 1.0) > 0.1
 
 
+def test_strain_is_that_of_the_middle_third_and_stress_that_of_the_plate(block):
+    """Of a motion that is given: by -0.3, -0.1 and 0.8 in the middle, three times as much elsewhere."""
+    weight = (block.network.form[:, None] * [1.0, 0.4, 0.4]).ravel()
+    system, h = pulled_system(block, weight), block.geometry.h
+    outside = np.abs(block.position[:, 2] - h / 2) >= h / 6
+    moved = block.position * [-0.3, -0.1, 0.8] * np.where(outside, 3.0, 1.0)[:, None]
+    motion = np.append(np.hstack([moved, np.zeros_like(moved)]).ravel(), 0.8 * h)
+    stress = (weight * (system.operator @ motion) ** 2).sum() / (block.geometry.b * block.geometry.e)
+    assert stretched(block, system, motion) == pytest.approx((stress / 0.8, 0.4 / 1.6), rel=1e-10)
+
+
 def test_a_prism_cut_out_of_a_layer(make_beam):
     """Along x of the layer; a cut through spheres does no harm to facets."""
     layer = make_beam(seed=2, shape=(8, 6, 20), area="facets")
@@ -94,8 +127,12 @@ def test_a_prism_cut_out_of_a_layer(make_beam):
         lambda p, r: facet_network(p, r, geometry),
     )
     x, y, z = prism.position.T
-    assert np.abs(x).max() < 9e-3 and np.abs(y).max() < 7e-3 and 0.0 < z.min() and z.max() < 50e-3
-    assert prism.radius.size == pytest.approx(960 * 18 * 14 * 50 / (80 * 24 * 32), rel=0.15)
+    within = (lying > [11e-3, 5e-3, 6e-3]) & (lying < [61e-3, 19e-3, 24e-3])
+    kept = within.all(axis=1)
+    np.testing.assert_allclose(x, lying[kept, 2] - 15e-3, atol=1e-15)
+    np.testing.assert_allclose(y, lying[kept, 1] - 12e-3, atol=1e-15)
+    np.testing.assert_allclose(z, lying[kept, 0] - 11e-3, atol=1e-15)
+    assert prism.radius.tolist() == layer.radius[kept].tolist() and prism.loose_grains == 0
     assert pull(prism, EQUAL)[0] == pytest.approx(1.0, abs=1e-5)
 
 

@@ -50,3 +50,15 @@ def test_sizes_and_places_are_mixed():
     for size in np.unique(radius):
         own = height[radius == size]
         assert abs(own.mean() - 0.5) < 3 * np.sqrt(1 / 12 / own.size)
+
+
+def test_small_spheres_are_dealt_evenly_and_lie_anywhere_in_their_octants():
+    """210 spheres in the 120 cells of 150 that no large one has: two in 90 of them, one in the rest."""
+    position, radius = strewn("sharing", 3)
+    size = np.array(MIXES["sharing"][2]) / [5, 3, 10]
+    cell, small = (position / size).astype(int) @ [1, 5, 15], radius < 3e-3
+    assert np.bincount(np.bincount(cell[small], minlength=150)).tolist() == [30, 30, 90]
+    assert not set(cell[small]) & set(cell[~small])
+    share = (position[radius == 1e-3] % (size / 2) - 1e-3) / (size / 2 - 2e-3)
+    np.testing.assert_allclose(share.mean(axis=0), 0.5, atol=3 * np.sqrt(1 / 12 / len(share)))
+    np.testing.assert_allclose(share.std(axis=0), np.sqrt(1 / 12), rtol=0.1)

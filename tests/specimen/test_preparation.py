@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from naive.granular import all_pairs
 
 import asphalt_nscd as an
 from asphalt_nscd.files.errors import InputError
@@ -56,8 +57,17 @@ def test_what_was_poured(poured, told):
     assert attributes["spheres"] == 530 and attributes["seed"] == 1
     assert attributes["layer_height_m"] == pytest.approx(layer_height(position, radius), rel=1e-14)
     assert attributes["highest_point_m"] == pytest.approx((position[:, 2] + radius).max(), rel=1e-14)
-    assert 0.45 < attributes["solid_fraction"] < 0.70
-    assert 2.5 < attributes["coordination"] < 6.0
+    touching = all_pairs(position, radius, np.empty((0, 3)), np.empty((0, 3)), 1e-6)
+    assert attributes["coordination"] == 2 * len(touching) / 530 > 2.5
+    volume = BOX[0] * BOX[1] * attributes["layer_height_m"]
+    solid = (4 / 3 * np.pi * radius**3).sum()
+    assert attributes["solid_fraction"] == pytest.approx(solid / volume, rel=1e-13) and solid > 0.45 * volume
+    stated = {
+        "friction": 0.2, "wall_friction": 0.2, "restitution": 0.0, "stroke_m": 1e-3, "vibration_Hz": 30.0,
+        "vibration_s": 0.05, "time_step": 4e-4, "wall_pressure_Pa": 2600.0 * 9.81 * solid / (BOX[0] * BOX[1]),
+    }  # fmt: skip
+    assert {name: attributes[name] for name in stated} == pytest.approx(stated, rel=1e-12)
+    assert "rolling_friction" not in attributes and attributes["largest_overlap_moving_m"] > 0.0
     assert 0.0 <= attributes["largest_overlap_m"] < 2e-5
     assert attributes["weight_balance"] < 1e-3 and attributes["unbalanced_force"] < 1e-3
     assert attributes["poured_weight_balance"] < 1e-3 and attributes["poured_unbalanced_force"] < 1e-3
@@ -98,7 +108,9 @@ def test_specimen_from_deposit(folder, poured):
     assert attributes["bonds"] == specimen.network.first.size > 3 * specimen.radius.size
     assert attributes["smallest_gap_m"] == specimen.network.gap.min() > 0.0
     assert attributes["gap_max_m"] == 2e-3 > specimen.network.gap.max()
-    assert attributes["solid_fraction"] == poured.attributes["solid_fraction"]
+    assert (attributes["volume_reduction"], attributes["area"]) == (0.1, "paper")
+    for name in ("seed", "layer_height_m", "solid_fraction"):
+        assert attributes[name] == poured.attributes[name]
     assert attributes["loose_grains"] == specimen.loose_grains
     network = specimen.network
     for name, value in network.arrays().items():
@@ -135,7 +147,7 @@ def test_forces_of_contacts_push_and_bear_the_layer(poured):
     arrays = poured.arrays
     bodies, force, position = arrays["contacts/bodies"], arrays["contacts/force"], arrays["position"]
     n = arrays["radius"].size
-    weight = preparation.DENSITY * 9.81 * 4.0 / 3.0 * np.pi * arrays["radius"] ** 3
+    weight = 2600.0 * 9.81 * 4.0 / 3.0 * np.pi * arrays["radius"] ** 3
     assert -force[bodies[:, 1] >= n].sum(axis=0)[2] == pytest.approx(weight.sum(), rel=0.01)
     between = bodies[:, 1] < n
     apart = position[bodies[between, 1]] - position[bodies[between, 0]]
@@ -175,6 +187,21 @@ def test_a_sphere_that_rebounds_rests_later_by_what_theory_says():
         _, said = preparation.pour_on(*start, pouring)
         taken.append(said["steps"] * said["time_step"])
     assert taken[1] - taken[0] == pytest.approx(2.0 * np.sqrt(2.0 * height / 9.81), abs=0.011)
+
+
+def test_a_layer_that_is_not_at_rest_is_told_and_grains_within_each_other_are_refused(monkeypatch):
+    still = {"weight_balance": 0.0099, "unbalanced_force": 0.0099}
+    assert preparation.unrest(still) == ""
+    said = [preparation.unrest(still | {name: 0.023}) for name in still]
+    assert "differs by 2.3% from its weight" in said[0] and "bear 2.3% of a contact force" in said[1]
+    stage = {"largest_overlap_m": 0.0}
+    monkeypatch.setattr(preparation, "_stage", lambda *_: stage)
+    start, rest = (np.array([[0.03, 0.005, 2e-3]]), np.array([2e-3])), Vibration(duration=0.0)
+    stage["largest_overlap_m"] = 0.99e-4
+    pour_on(*start, Pouring(BOX, vibration=rest))
+    stage["largest_overlap_m"] = 1.01e-4
+    with pytest.raises(InputError, match="grains overlap by 0.1 mm at rest"):
+        pour_on(*start, Pouring(BOX, vibration=rest))
 
 
 def test_smooth_walls_bear_a_layer_from_below_alone():

@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements.fourpoint import Beam
 from asphalt_nscd.measurements.twopoint import bending_share
+from asphalt_nscd.specimen.prism import static_ratio
 from asphalt_nscd.specimen.system import affine_modulus, affine_poisson, bending_system
 
 POISSON, YIELD = 0.35, 2.7e6
@@ -30,6 +33,34 @@ def test_masses_and_loads(beam):
     assert not np.delete(load, 2, axis=1).any()
     assert system.driven == 6 * n  # the head, along x
     assert not bending_system(beam, POISSON, YIELD, 0.7, gravity=0.0).load.any()
+
+
+def test_masses_between_four_clamps(make_beam):
+    """Cells bear the mass and turn as balls of their volume; the inner clamps move as one; weight acts along x."""
+    beam = make_beam(shape=(3, 2, 12), area="facets", test=Beam.test)
+    system = bending_system(beam, POISSON, YIELD, 0.7)
+    n, cell, geometry = beam.radius.size, beam.network.cell, beam.geometry
+    share = geometry.mass * cell / cell.sum()
+    inertia = 0.4 * share * (3.0 * cell / (4.0 * np.pi)) ** (2 / 3)
+    spheres = np.repeat(np.stack([share, inertia], axis=1), 3, axis=1)
+    np.testing.assert_allclose(system.mass[: 6 * n].reshape(n, 6), spheres, rtol=1e-13)
+    half, y2, x2 = geometry.mobile_mass / 2, geometry.breadth**2 / 12, geometry.depth**2 / 12
+    clamp = [half, half, half * y2, half * x2, half * (x2 + y2)]
+    outer = [0.0] * 2 + [0.0] * 3  # two rotations of one, and along the beam of the other
+    np.testing.assert_allclose(system.mass[6 * n :], [2 * half, *clamp, *clamp, *outer], rtol=1e-13)
+    load = np.zeros(system.mass.size)
+    load[: 6 * n : 6], load[6 * n] = -9.81 * share, -9.81 * geometry.mobile_mass
+    np.testing.assert_allclose(system.load, load, rtol=1e-13)
+    assert system.driven == 6 * n
+    with pytest.raises(InputError, match="four-point bending turns the specimen at its clamps; give free"):
+        bending_system(beam, POISSON, YIELD, 0.7, head="blocked")
+
+
+def test_static_ratio_is_that_of_the_inverse(beam):
+    system = bending_system(beam, POISSON, YIELD, 0.7)
+    stiffness = 1.0 / np.linalg.inv(system.stiffness().toarray())[system.driven, system.driven]
+    expected = beam.geometry.form_factor() * stiffness
+    assert static_ratio(system, beam.geometry) == pytest.approx(expected, rel=1e-8)
 
 
 def test_weights_and_strengths(beam):
