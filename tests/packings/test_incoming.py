@@ -50,16 +50,23 @@ def test_each_form_gives_the_same_spheres(tmp_path, name):
     assert np.allclose(packing.radius_m, RADIUS, atol=1e-12)
 
 
-@pytest.mark.parametrize("ending", [".vtp", ".vtu", ".vtk"])
-def test_points_of_vtk(tmp_path, ending):
+@pytest.mark.parametrize(
+    ("ending", "name", "length", "times", "said"),
+    [
+        (".vtp", "Radius", 1e3, 1.0, "lengths taken as mm"),
+        (".vtu", "diameter_m", 1.0, 2.0, "lengths in m, as the file says"),
+        (".vtk", "Diameter", 1e3, 2.0, "lengths taken as mm"),
+    ],
+)
+def test_points_of_vtk(tmp_path, ending, name, length, times, said):
     from vtk.util.numpy_support import numpy_to_vtk
 
     points = vtk.vtkPoints()
-    points.SetData(numpy_to_vtk(1e3 * POSITION, deep=True))
+    points.SetData(numpy_to_vtk(length * POSITION, deep=True))
     kind = vtk.vtkPolyData if ending == ".vtp" else vtk.vtkUnstructuredGrid
-    data, size = kind(), numpy_to_vtk(1e3 * RADIUS, deep=True)
+    data, size = kind(), numpy_to_vtk(times * length * RADIUS, deep=True)
     data.SetPoints(points)
-    size.SetName("Radius")
+    size.SetName(name)
     data.GetPointData().AddArray(size)
     writers = {
         ".vtp": vtk.vtkXMLPolyDataWriter,
@@ -71,7 +78,8 @@ def test_points_of_vtk(tmp_path, ending):
     writer.SetInputData(data)
     writer.Write()
     packing = an.read_packing(tmp_path / f"spheres{ending}")
-    assert np.allclose(packing.radius_m, RADIUS) and "lengths taken as mm" in " ".join(packing.notes)
+    assert np.allclose(packing.radius_m, RADIUS) and said in " ".join(packing.notes)
+    assert np.allclose(packing.position_m, POSITION - (POSITION - RADIUS[:, None]).min(axis=0))
 
 
 def test_what_was_understood_is_said(tmp_path):
@@ -81,24 +89,83 @@ def test_what_was_understood_is_said(tmp_path):
     assert "120 spheres, radii 2 to 3 mm" in notes
 
 
+def test_attributes_are_those_of_the_spheres(tmp_path):
+    (tmp_path / "pile.csv").write_text(FORMS["mm.csv"])
+    packing = an.read_packing(tmp_path / "pile.csv")
+    size = np.ptp([*(POSITION - RADIUS[:, None]), *(POSITION + RADIUS[:, None])], axis=0)
+    assert np.allclose(packing.box_m, size)
+    height = 2.0 * np.average(packing.position_m[:, 2], weights=RADIUS**3)
+    solid = 4.0 / 3.0 * np.pi * (RADIUS**3).sum() / (size[0] * size[1] * height)
+    expected = {"spheres": 120, "highest_point_m": size[2], "layer_height_m": height, "solid_fraction": solid}
+    assert {name: packing.attributes[name] for name in expected} == pytest.approx(expected, rel=1e-9)
+    assert packing.attributes["source"] == "pile.csv" and f"solid fraction {solid:.3f}" in packing.notes[-1]
+
+
 def test_the_axis_against_gravity_becomes_the_height(tmp_path):
-    (tmp_path / "y.csv").write_text(
-        "z_m,x_m,y_m,radius_m\n" + lines(TABLE[:, [1, 0, 2, 3]], ",")
-    )  # x z y of ours
-    packing = an.read_packing(tmp_path / "y.csv", up="y")
+    """Whichever it is; and the longer of the other two, which is our x, becomes the length."""
     straight = POSITION - (POSITION - RADIUS[:, None]).min(axis=0)
-    assert np.allclose(packing.position_m, straight)
-    assert packing.attributes["layer_height_m"] == pytest.approx(
-        2 * np.average(straight[:, 2], weights=RADIUS**3)
-    )
+    for names, up in (("xzy", "y"), ("yxz", "z"), ("zyx", "x"), ("yzx", "x")):
+        header = ",".join(f"{name}_m" for name in names)
+        (tmp_path / "turned.csv").write_text(f"{header},radius_m\n" + lines(TABLE, ","))
+        packing = an.read_packing(tmp_path / "turned.csv", up=up)
+        assert np.allclose(packing.position_m, straight), (names, up)
+        assert f"axes {', '.join(names)} of the file became length, width, height" in packing.notes
 
 
 def test_overlaps_are_measured(tmp_path):
-    pair = np.array([[0, 0, 5, 5.0], [0, 0, 14.8, 5.0], [0, 0, 30, 5.0]])
-    (tmp_path / "pair.csv").write_text("x_mm,y_mm,z_mm,radius_mm\n" + lines(pair, ","))
-    packing = an.read_packing(tmp_path / "pair.csv")
-    assert packing.attributes["largest_overlap_m"] == pytest.approx(0.2e-3)
-    assert any("by 4.0 %" in note for note in packing.notes)
+    """Over the smaller of two radii: a tenth is taken, and from a hundredth on it is noted."""
+
+    def read(apart):
+        pair = np.array([[0, 0, 5, 5.0], [0, 0, 5 + apart, 4.0], [0, 0, 23, 4.0]])
+        (tmp_path / "pair.csv").write_text("x_mm,y_mm,z_mm,radius_mm\n" + lines(pair, ","))
+        return an.read_packing(tmp_path / "pair.csv")
+
+    for overlap, words in ((0.396, "spheres 1 and 2 by 9.9 %"), (0.0404, "by 1.0 %"), (0.0396, "")):
+        packing = read(9.0 - overlap)
+        assert packing.attributes["largest_overlap_m"] == pytest.approx(1e-3 * overlap)
+        assert packing.attributes["coordination"] == pytest.approx(2 / 3)
+        noted = [note for note in packing.notes if "of the smaller radius" in note]
+        assert all(words in note for note in noted) and bool(noted) == bool(words)
+    with pytest.raises(an.InputError, match="spheres 1 and 2 overlap by 10 %.* 1 pair by more than 1 %"):
+        read(9.0 - 0.404)
+
+
+@pytest.mark.parametrize(
+    ("unit", "inside", "outside"), [("m", 1.01e-4, 0.99e-4), ("m", 0.0499, 0.0501), ("mm", 49.9, 50.1)]
+)
+def test_radii_are_those_of_aggregate(tmp_path, unit, inside, outside):
+    for radius in (inside, outside):
+        rows = np.array([[0, 0, 0, radius], [0, 0, 2 * radius, radius]])
+        (tmp_path / "two.csv").write_text(f"x_{unit},y_{unit},z_{unit},radius_{unit}\n" + lines(rows, ","))
+        if radius == inside:
+            assert len(an.read_packing(tmp_path / "two.csv").radius_m) == 2
+    with pytest.raises(an.InputError, match="are not those of aggregate, 0.1 to 50 mm"):
+        an.read_packing(tmp_path / "two.csv")
+
+
+@pytest.mark.parametrize(
+    ("radius", "unit"), [(0.4, "mm or cm"), (1.9, "mm or cm"), (2.1, "mm"), (0.09, "neither")]
+)
+def test_a_unit_is_guessed_where_no_other_is_likely(tmp_path, radius, unit):
+    """Radii of 0.1 to 2 may be sand in mm or gravel in cm."""
+    rows = np.array([[0, 0, 0, radius], [0, 0, 2 * radius, radius]])
+    (tmp_path / "two.csv").write_text(HEADED + lines(rows, ","))
+    if unit == "mm":
+        assert an.read_packing(tmp_path / "two.csv").radius_m == pytest.approx([2.1e-3] * 2)
+    else:
+        with pytest.raises(an.InputError, match=unit):
+            an.read_packing(tmp_path / "two.csv")
+
+
+def test_a_gap_wider_than_any_sphere_parts_a_packing(tmp_path):
+    for wide, parts in ((9.9, False), (10.1, True)):
+        rows = np.array([[5, 5, 5, 5.0], [5, 5, 15, 5.0], [5, 5, 24 + wide, 4.0]])
+        (tmp_path / "apart.csv").write_text("x_mm,y_mm,z_mm,radius_mm\n" + lines(rows, ","))
+        if parts:
+            with pytest.raises(an.InputError, match="gap of 10.1 mm along the height parts 1 sphere from"):
+                an.read_packing(tmp_path / "apart.csv")
+        else:
+            assert len(an.read_packing(tmp_path / "apart.csv").radius_m) == 3
 
 
 MM = 1e3 * TABLE

@@ -11,7 +11,7 @@ import pytest
 import asphalt_nscd as an
 from asphalt_nscd import cli
 from asphalt_nscd.bending.model import model_of
-from asphalt_nscd.files.store import load
+from asphalt_nscd.files.store import load, save
 
 vtk = pytest.importorskip("vtk")
 from vtk.util.numpy_support import vtk_to_numpy  # noqa: E402
@@ -80,8 +80,12 @@ def test_tables_of_a_specimen_and_a_test(beam, tmp_path):
     test = an.bend(beam, LAW, 20.0, 15.0)
     an.export(beam, tmp_path / "s.csv", "csv")
     an.export(test, tmp_path / "t.csv", "csv")
-    assert np.allclose(pd.read_csv(tmp_path / "s.csv")["radius_m"], beam.radius_m)
-    assert len(pd.read_csv(tmp_path / "s-bonds.csv")) == len(beam.bonds)
+    spheres, bonds = (pd.read_csv(tmp_path / f"s{of}.csv") for of in ("", "-bonds"))
+    assert np.allclose(spheres[["x_m", "y_m", "z_m"]], beam.position_m, atol=1e-12)
+    assert np.allclose(spheres["radius_m"], beam.radius_m)
+    assert np.array_equal(spheres["class"], beam.radius_m > 2.6e-3)
+    assert list(bonds) == ["first", "second", "area_m2", "gap_m", "length_m"]
+    assert np.allclose(bonds[list(beam.bonds)], beam.bonds, rtol=1e-9, atol=1e-15)
     assert np.allclose(pd.read_csv(tmp_path / "t.csv"), test.history, rtol=1e-8)
     with pytest.raises(an.InputError, match=r"holds no motion of spheres.*Load\(frames=24\)"):
         an.export(test, tmp_path / "t.pvd", "vtk")
@@ -153,6 +157,42 @@ def test_utilisation_is_stress_over_strength(cycle):
         largest = max(largest, used.max())
     said = load(cycle / "test.h5", "test").attributes["largest_utilisation"]
     assert 0.7 * said < largest <= said * (1.0 + 1e-6)  # which is of all cycles
+
+
+def test_a_fall_in_paraview_is_where_its_spheres_are_and_has_the_bonds_left(tmp_path):
+    kept = {
+        "time_s": [0.0, 0.1], "position_m": np.eye(3), "radius_m": [1.0, 2, 3], "first": [0, 1], "second": [1, 2],
+        "area_m2": [0.5, 0.25], "strength_N": [10.0, 20.0], "displacement_m": np.arange(18.0).reshape(2, 3, 3),
+        "velocity_m_s": np.ones((2, 3, 3)), "fragment": [[0, 0, 0], [0, 1, 1]], "broken": [[False] * 2, [True, False]],
+        "bond_force_N": [[[4.0, 0, 3], [-9, 8, 6]], [[0, 0, 0], [12, 0, -5]]],
+    }  # fmt: skip
+    arrays = {f"frames/{name}": np.array(values) for name, values in kept.items()}
+    save(
+        tmp_path / "fall.h5",
+        "fall",
+        arrays | {"time_s": np.array([0.0, 0.1]), "load_J": np.array([0.0, -2])},
+        {},
+    )
+    run("export", tmp_path / "fall.h5", "--format", "vtk", "--output", tmp_path / "f.pvd")
+    run("export", tmp_path / "fall.h5", "--format", "csv", "--output", tmp_path / "f.csv")
+    assert pd.read_csv(tmp_path / "f.csv").to_dict("list") == {"load_J": [0.0, -2.0], "time_s": [0.0, 0.1]}
+    sets = list(ElementTree.parse(tmp_path / "f.pvd").getroot().iter("DataSet"))
+    assert [(one.get("timestep"), one.get("part")) for one in sets] == [
+        (t, p) for t in ("0", "0.1") for p in "01"
+    ]
+    last, lines = (read(tmp_path / one.get("file")) for one in sets[2:])
+    place = np.eye(3) + np.arange(9.0, 18.0).reshape(3, 3)
+    assert np.allclose(vtk_to_numpy(last.GetPoints().GetData()), place)
+    assert np.allclose(vtk_to_numpy(lines.GetPoints().GetData()), place)
+    assert vtk_to_numpy(lines.GetLines().GetConnectivityArray()).tolist() == [1, 2]
+    found = {
+        name: array(lines.GetCellData(), name)[0]
+        for name in ("tension_N", "shear_N", "utilisation", "area_m2")
+    }
+    assert found == pytest.approx({"tension_N": 12.0, "shear_N": 5.0, "utilisation": 0.6, "area_m2": 0.25})
+    assert array(last.GetPointData(), "fragment").tolist() == [0, 1, 1]
+    both = read(tmp_path / sets[1].get("file")).GetCellData()
+    assert array(both, "utilisation") == pytest.approx([0.4, 0.5])
 
 
 def test_python_asks_for_instants_as_the_command_line_does(cycle, beam, tmp_path):

@@ -76,7 +76,7 @@ def test_parts_of_a_jump():
 
 
 def test_first_jumps_are_as_long_as_their_limits_allow():
-    """Two like bonds that pull alike: the fastest may lose a tenth, the head a hundredth, cycles gone grow by a tenth."""
+    """Two like bonds that pull alike: the fastest loses a tenth, the head a hundredth, or cycles grow by a tenth."""
     system = along_a_line([[0, 1], [0, 1], [1, 0]], [1.0, 1.0, np.inf])
     length = np.array([1.0, 2.0, 1.0])
     for jumps, first in ((Jumps(0.1, 0.0, 1.0), 1e5), (Jumps(1.0, 0.0, 0.01), 2e-2 / (17 / 16) * 1e6)):
