@@ -60,6 +60,11 @@ def test_the_record_goes_on_beyond_the_break(beam, pulled):
     assert columns["energy_fracture_J"] > 0.0
 
 
+def test_the_peak_of_a_push_is_its_most_negative_force(beam, pulled):
+    arrays, columns = ramp(beam, QUICK, Ramp(duration_s=2.5e-3, steps=10, displacement_m=-1e-5))
+    assert columns["peak_force_N"] == arrays["force_N"].min() < -0.9 * pulled[1]["peak_force_N"]
+
+
 def test_each_break_is_that_of_an_exact_stepper(beam, pulled):
     """One after another, the most overstressed first, each step solved anew by factors updated for every bond."""
     system = tared(beam).system
