@@ -13,8 +13,8 @@ from asphalt_nscd.bending.case import LoadCase, RunOptions, require_possible
 from asphalt_nscd.bending.condensing import condense
 from asphalt_nscd.bending.further_settings import Cycling, Fall, FatigueLaw, Hold, Ramp
 from asphalt_nscd.bending.model import read_model
-from asphalt_nscd.bending.rig import Rig, write_rig
-from asphalt_nscd.bending.settings import Bonds, Load, Numerics
+from asphalt_nscd.bending.rig import KEYS, Rig, write_rig
+from asphalt_nscd.bending.settings import Bonds, Fitted, Load, Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
 from asphalt_nscd.measurements.twopoint import form_factor, mass_factor
@@ -181,3 +181,37 @@ def test_who_states_nothing_tests_as_all_published_results_were_made():
     assert Hold() == Hold(10.0, 1000, None, None) and Ramp() == Ramp(0.1, 400, None, None, 0)
     assert Cycling() == Cycling(None, 10e3, 0.5, True, 10, 5, True, 32)
     assert Fall() == Fall(0.02, 75.0, 0.5, 0.5, 2e-4, 50, 0.0) and FatigueLaw() == FatigueLaw(100e-6, 5.0)
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "inside", "outside"),
+    [
+        *((kind, "force_N", sign * 1e9, sign * 1.01e9) for kind in (Hold, Ramp) for sign in (1, -1)),
+        *((kind, "displacement_m", sign * 1.0, sign * 1.01) for kind in (Hold, Ramp) for sign in (1, -1)),
+        *((kind, "duration_s", *ends) for kind in (Hold, Ramp) for ends in ((1e-6, 9e-7), (1e9, 1.1e9))),
+        *((kind, "steps", *ends) for kind in (Hold, Ramp) for ends in ((10, 9), (MOST, MOST + 1))),
+        (Ramp, "frames", 10_000, 10_001), (Ramp, "frames", 0, -1), (Cycling, "amplitude_m", 1e-12, 9e-13),
+        (Cycling, "amplitude_m", 1e-3, 1.1e-3), (Cycling, "pressure_Pa", 1, 0.9), (Cycling, "pressure_Pa", 1e7, 1.1e7),
+        (Cycling, "skeleton_friction", 0.0, -0.1), (Cycling, "skeleton_friction", 10.0, 10.1),
+        (Cycling, "all_cycles", 1000, 1001), (Cycling, "all_cycles", 5, 4), (Cycling, "read_cycles", 1, 0),
+        (Cycling, "steps_in_cycle", 20, 19), (Cycling, "steps_in_cycle", 1000, 1001), (Fall, "height", 0.0, -1e-9),
+        (Fall, "height", 10.0, 10.1), (Fall, "tilt", 180.0, 181.0), (Fall, "tilt", -180.0, -181.0),
+        (Fall, "sawn", 0.0, -0.1), (Fall, "sawn", 0.99, 1.0), (Fall, "duration", 1e-9, 0.0),
+        (Fall, "duration", 100.0, 101.0), (Fall, "time_step", 1e-6, 9e-8), (Fall, "time_step", 1e-2, 1.1e-2),
+        (Fall, "frames", 2, 1), (Fall, "frames", 10_000, 10_001), (Fall, "rolling_friction", 10.0, 10.1),
+        (FatigueLaw, "endured", 1e-8, 9e-9), (FatigueLaw, "endured", 0.1, 0.11), (FatigueLaw, "exponent", 1.0, 0.9),
+        (FatigueLaw, "exponent", 20.0, 21.0), (Bonds, "poisson", -0.99, -1.0), (Bonds, "poisson", 0.5, 0.51),
+        (Bonds, "kt_over_kn", 1e-4, 9e-5), (Bonds, "kt_over_kn", 10.0, 10.1), (Bonds, "yield_Pa", 1.0, 0.9),
+        (Bonds, "friction", 0.0, -0.1), (Bonds, "friction", 100.0, 101.0), (Numerics, "time_step", 1e-12, 0.0),
+        (Numerics, "rest_steps", 0, -1), (Numerics, "rest_steps", MOST, MOST + 1), (Numerics, "tolerance", 0.0, -1e-9),
+        (Numerics, "most_sweeps", 1, 0), (Numerics, "most_sweeps", 10**5, 100_001), (Fitted, "steps_per_cycle", 20, 19),
+        (Load, "amplitude_m", 1e-15, 9e-16), (Load, "amplitude_m", 1.0, 1.1), (Load, "cycles", 1.0, 0.9),
+        (Load, "frames", 10_000, 10_001), (Load, "frames", 0, -1), (Load, "amplitude_N", 1e-9, 9e-10),
+        (Load, "amplitude_N", 1e9, 1.1e9), (Rig, "guide_stiffness", 1e15, 1.1e15), (Rig, "guide_friction", 0.0, -1e-9),
+        (Rig, "clamp_compliance", 0, -1e-9), (Rig, "head_mass", -1e15, -1.1e15), (Rig, "phase_offset", -1e15, -1.1e15),
+    ],
+)  # fmt: skip
+def test_the_last_value_of_a_range_is_taken_and_the_next_is_not(kind, name, inside, outside):
+    kind(**{name: inside})
+    with pytest.raises(InputError, match=rf"{name}|{KEYS.get(name, name)}|read of"):
+        kind(**{name: outside})

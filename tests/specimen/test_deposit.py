@@ -238,6 +238,17 @@ def test_vibration_follows_the_layer_and_forces_no_grain_through_another(layer, 
     np.testing.assert_array_equal(shaken.plane_point[:5], layer.plane_point[:5])
 
 
+def test_a_wall_thrown_at_a_grain_meets_it_within_the_step():
+    """From rest, by 2 mm in a step, on a grain that lies 1 mm below: the list of pairs asks what the drive may do."""
+    bed = GranularBed.spheres_in_box(
+        np.array([[0.01, 0.01, 2e-3]]), np.array([2e-3]), BOX, 2600.0, ContactLaw()
+    )
+    bed.hang_wall(5e-3, 1.0)
+    bed.drive[:] = -5.0, 5.0
+    bed.advance(PouringNumerics.of(bed.radius, 4e-4))
+    assert bed.plane_point[5, 2] == pytest.approx(4e-3, abs=1e-5)
+
+
 def test_vibrated_layers_sink():
     """By 0.1 mm on average of four; where one lies dense already, it rises by 1 % of the smallest radius at most."""
     sunk = []
