@@ -337,6 +337,11 @@ def test_threads_that_the_machine_has_not_are_refused_before_anything_is_compile
     assert not Path("s1.h5").exists()
 
 
+def test_memory_is_told_in_megabytes():
+    """Of a process with numpy and pandas."""
+    assert 50.0 < cli._most_memory() < 5000.0
+
+
 def test_a_thread_without_memory_ends_the_step_in_a_sentence():
     """The others may wait for it for ever: here the step does."""
     step = """

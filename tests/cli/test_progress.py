@@ -30,3 +30,4 @@ def test_a_short_stage_says_nothing_and_loads_nothing(monkeypatch, capsys):
 def test_a_long_stage_is_told_from_its_beginning(monkeypatch, capsys):
     text = said(monkeypatch, capsys, 22.0)
     assert "stage: 100%" in text and "00:22 elapsed" in text
+    assert "stage: 100%" in said(monkeypatch, capsys, 1.2)

@@ -10,6 +10,7 @@ from scipy import sparse
 from theory.assemblies import block_on_slope, box_stack
 
 from asphalt_nscd import cli
+from asphalt_nscd.contact_problems import fclib
 from asphalt_nscd.contact_problems.fclib import read_problem
 from asphalt_nscd.files.errors import InputError
 
@@ -51,6 +52,51 @@ def test_storages(tmp_path, storage):
     np.testing.assert_array_equal(problem.mu, [0.3, 0.4])
 
 
+@pytest.mark.parametrize("storage", ["rows", "columns", "triplets"])
+def test_room_for_more_entries_is_not_read_and_an_entry_given_twice_is_summed(tmp_path, storage):
+    W = np.diag(np.arange(1.0, 7.0))
+    W[0, 4] = 5.0
+    content = stored(W, storage)
+    count = content["x"].size
+    twice = np.flatnonzero(content["x"] == 5.0)[0]  # the second half of it stands behind
+    content["x"][twice] = 2.0
+    content = {
+        name: np.append(values, [values[twice], 5]) if name in "ix" else values
+        for name, values in content.items()
+    }
+    content["x"][-2] = 3.0
+    if storage == "triplets":
+        content |= {"nz": count + 1, "p": np.append(content["p"], [content["p"][twice], 0])}
+    else:
+        order = np.insert(np.arange(count), twice, count).tolist() + [count + 1]
+        line = 4 if storage == "columns" else 0
+        content |= {name: content[name][order] for name in "ix"} | {"p": content["p"] + (np.arange(7) > line)}
+    content["nzmax"] = count + 2
+    change = {f"W/{name}": value for name, value in content.items()}
+    problem = read_problem(write(tmp_path / "p.hdf5", W, np.arange(6.0), 0.3, change=change))
+    np.testing.assert_array_equal(problem.W.toarray(), W)
+    if storage != "triplets":
+        change["W/nzmax"] = count
+        with pytest.raises(InputError, match="pointers W/p do not fit"):
+            read_problem(write(tmp_path / "p.hdf5", W, np.arange(6.0), 0.3, change=change))
+
+
+def test_each_is_solved_to_the_tolerance_once_the_solver_is_compiled(tmp_path, monkeypatch):
+    block, asked, solve = block_on_slope(0.3), [], fclib.solve_contacts
+    monkeypatch.setattr(
+        fclib,
+        "solve_contacts",
+        lambda *given, **more: asked.append((*given[3:], more)) or solve(*given, **more),
+    )
+    path = write(tmp_path / "block.hdf5", block.W, block.q, 0.5)
+    (outcome,) = fclib.solve_files([path], 1e-5)
+    assert asked == [({"most_sweeps": 20, "most_steps": 0},), (1e-5, {})]
+    solution = solve(block.W, block.q, np.full(4, 0.5), 1e-5)
+    expected = "block.hdf5", 4, solution.iterations, solution.error, solution.scaled_error, True
+    assert (*list(vars(outcome).values())[:5], outcome.converged) == expected
+    assert fclib.table([outcome]).iloc[0].tolist() == list(vars(outcome).values())
+
+
 REFUSED = {
     "two dimensions": ({"spacedim": 2}, "spacedim is 2"),
     "no W": ({"W/x": None}, "no dataset fclib_local/W/x"),
@@ -61,6 +107,18 @@ REFUSED = {
     "columns": ({"W/i": np.array([0, 1, 2, 3, 4, 6])}, "outside its rows and columns"),
     "triplets outside": ({"W/nz": 6, "W/p": np.array([0, 1, 2, 3, 4, -1])}, "outside its rows and columns"),
     "bilateral": ({"R/m": 3}, "bilateral constraints"),
+    "no rows": ({"W/m": 0}, "W has 0 rows and 6 columns"),
+    "triplets missing": ({"W/nz": 7}, "W announces 7 entries and holds 6"),
+    "triplets too far": ({"W/nz": 6, "W/p": np.array([0, 1, 2, 3, 4, 6])}, "outside its rows and columns"),
+    "first pointer": ({"W/p": np.array([1, 1, 2, 3, 4, 5, 6])}, "pointers W/p do not fit"),
+    "falling pointers": ({"W/p": np.array([0, 1, 3, 2, 4, 5, 6])}, "pointers W/p do not fit"),
+    "negative column": ({"W/i": np.array([0, 1, 2, 3, 4, -1])}, "outside its rows and columns"),
+    "no contact": ({"vectors/q": np.zeros(0), "vectors/mu": np.zeros(0)}, "do not belong together"),
+    "W too small": ({"vectors/q": np.zeros(9), "vectors/mu": np.ones(3)}, "do not belong together"),
+    "a float": ({"W/i": np.zeros(6)}, "W/i does not hold integers"),
+    "a text": ({"vectors/q": np.array([b"x"] * 6)}, "vectors/q does not hold numbers"),
+    "infinite": ({"vectors/q": np.full(6, np.inf)}, "vectors/q has values that are not finite"),
+    "two dimensions at once": ({"spacedim": np.array([3, 3])}, "fclib_local/spacedim is not one number"),
 }
 
 

@@ -216,6 +216,20 @@ def test_a_packing_far_from_the_origin_is_moved_and_that_is_said(tmp_path):
     assert np.allclose(packing.position_m, POSITION - (POSITION - RADIUS[:, None]).min(axis=0), atol=2e-8)
     (tmp_path / "near.csv").write_text("x,y,z,radius\n" + lines(TABLE, ","))
     assert "moved" not in " ".join(an.read_packing(tmp_path / "near.csv").notes)
+    longest = np.ptp([*(POSITION - RADIUS[:, None]), *(POSITION + RADIUS[:, None])], axis=0).max()
+    for boxes, told in ((9.8, False), (10.3, True)):
+        (tmp_path / "far.csv").write_text(HEADED + lines(TABLE - [0, 0, boxes * longest, 0], ","))
+        assert ("moved" in " ".join(an.read_packing(tmp_path / "far.csv").notes)) == told
+
+
+def test_positions_must_resolve_a_ten_thousandth_of_a_radius(tmp_path):
+    """Of 2.5 mm. Neighbours among floats are 0.12 um apart beyond 10^9 m, and 0.48 um from 2^31 m on."""
+    rows = "x_m,y_m,z_m,radius_m\n{0},0,0,0.0025\n{0},0,0.005,0.0025\n"
+    (tmp_path / "far.csv").write_text(rows.format(1e9))
+    assert len(an.read_packing(tmp_path / "far.csv").radius_m) == 2
+    (tmp_path / "far.csv").write_text(rows.format(2.2e9))
+    with pytest.raises(an.InputError, match="leave no digits for radii of 0.0025 m"):
+        an.read_packing(tmp_path / "far.csv")
 
 
 def test_a_stated_unit_decides(tmp_path):
