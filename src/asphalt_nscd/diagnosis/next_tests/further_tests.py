@@ -72,9 +72,12 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     at_all = sweeps.temperatures(observed) if laws_between else observed.isotherms.tolist()
     table = sweeps.every_test(observed, at_all)
     noise = sweeps.noise_of(diagnosis.noise, observed, table)
-    joint = Joint(table, base, noise)
     # A new specimen begins at the level of the mix, with the spread that specimens have.
     scales = np.append(fitted.scales, 0.0)
+    # Some effects go with the modulus, which the law says of tests to come.
+    said = Joint(table, base, noise).apparent(fitted.law, (), scales)[0][observed.size :]
+    table = replace(table, modulus=np.concatenate([observed.modulus, said]))
+    joint = Joint(table, base, noise)
     candidates = _candidates(observed, table, fitted.active)
     at = joint.linearise(fitted.law, scales, fitted.active)
     nuisance, precision = _law_derivatives(joint, at)

@@ -99,7 +99,8 @@ def fill_strain(observed: Observations) -> Observations:
 def every_test(observed: Observations, at: Sequence[float]) -> Observations:
     """The tests done, then every specimen and a new one at all temperatures `at` [degC] and frequencies.
 
-    Last, at half the strain, all frequencies of the table at some of the isotherms tested of a specimen.
+    Last, at half the strain, all frequencies of the table at some of the isotherms tested of a specimen. The modulus of
+    a test to come is that of another one, until the law says it.
     """
     names = (*observed.names, NEW)
     full = [(s, t, f, 1.0) for s in range(len(names)) for t in at for f in frequencies(observed)]
@@ -193,8 +194,10 @@ def sweeps_at(observed: Observations, table: Observations, noise: Noise, costs: 
 
 def metal_tests(observed: Observations) -> Observations:
     """Tests of a metal specimen, one row for each of the frequencies tested (at most eight)."""
-    tested, first = np.unique(observed.frequency, return_index=True)
-    at = first[np.isin(tested, frequencies(observed))]
+    # in one order, however the table is sorted
+    rows = np.lexsort((np.array(observed.names)[observed.specimen], observed.temperature))
+    tested, first = np.unique(observed.frequency[rows], return_index=True)
+    at = rows[first[np.isin(tested, frequencies(observed))]]
     return replace(observed.subset(at), modulus=np.full(at.size, METAL_MODULUS + 0j))
 
 
