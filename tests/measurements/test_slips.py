@@ -159,7 +159,7 @@ def test_each_slip_is_the_first_thing_said(table, said):
     assert said in next(slips(table))
 
 
-@pytest.mark.parametrize("frequencies", [FREQUENCIES, FREQUENCIES[2:]])
+@pytest.mark.parametrize("frequencies", [FREQUENCIES, FREQUENCIES[2:], FREQUENCIES[::2]])
 def test_frequencies_of_one_sweep_in_reverse_order(frequencies):
     table = campaign()
     table = table[table["frequency_Hz"].isin(frequencies)]

@@ -26,9 +26,8 @@ SURE = 3.0  # standard errors of the mean gain
 MOST_GAIN = np.log(10.0)  # beyond this gain a unit is as likely wrong
 LEAST_STEP = 3.0  # K between two isotherms that are compared
 LEAST = 3  # shared conditions
-FALLING = (
-    0.2  # of ln |E*|: over four frequencies and more, each step down, no mix and no machine lowers it so
-)
+# Of ln |E*|, each step down: no mix and no machine lowers it so over four frequencies and more, or over three.
+FALLING, FALLING_OF_THREE = 0.2, 0.4
 LEAST_SLOPE = 0.05  # of ln |E*| over ln f that is no scatter: a phase of 4.5 deg
 FULL_CIRCLE = 2.0 * np.pi
 # On the cold side |E*| is the glassy modulus x exp(-0.062 phase), within 30 %, in 2S2P1D, Huet-Sayegh, Havriliak-Negami
@@ -143,7 +142,8 @@ def _order_of_frequencies(table: pd.DataFrame) -> Iterator[str]:
         return
     for (specimen, temperature), tests in table.groupby(["specimen", "temperature_C"]):
         steps = np.diff(np.log(tests.groupby("frequency_Hz")["E_MPa"].mean()))
-        if steps.size >= LEAST and (steps < 0.0).all() and steps.sum() < -FALLING:
+        least = FALLING if steps.size >= LEAST else FALLING_OF_THREE
+        if steps.size >= 2 and (steps < 0.0).all() and steps.sum() < -least:
             fall = -100.0 * np.expm1(steps.sum())
             yield (
                 f"|E*| of {specimen_named(str(specimen))} at {temperature:g} degC falls by {fall:.0f} % as the "
