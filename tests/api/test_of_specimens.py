@@ -9,6 +9,7 @@ from pandas.testing import assert_frame_equal
 from theory.specimens import jittered_beam, save_specimen
 
 import asphalt_nscd as an
+from asphalt_nscd.api import specimens
 from asphalt_nscd.api.specimens import _counts
 from asphalt_nscd.bending.bending_test import outcome
 from asphalt_nscd.bending.case import LoadCase, RunOptions
@@ -19,6 +20,8 @@ from asphalt_nscd.bending.hold import hold
 from asphalt_nscd.bending.model import model_of
 from asphalt_nscd.bending.ramp import ramp
 from asphalt_nscd.files.store import Record
+from asphalt_nscd.measurements.twopoint import PAPER
+from asphalt_nscd.specimen.settings import Cutting, Pouring
 
 LAW = an.Law.burgers(Em_Pa=24.3e9, eta_m_Pa_s=0.06e9, Ek_Pa=48.4e9, eta_k_Pa_s=0.077e9, temperature_C=15)
 BONDS = an.Bonds(kt_over_kn=0.8, yield_Pa=1e6)
@@ -113,6 +116,33 @@ def test_a_specimen_is_condensed_once_for_each_kind_of_bonds(beam):
     one = model_in_memory(beam, BONDS)
     assert model_in_memory(beam, an.Bonds(kt_over_kn=0.8, yield_Pa=1e6)) is one
     assert model_in_memory(beam, an.Bonds()) is not one
+
+
+def test_pouring_and_cutting_hand_on_what_is_asked(monkeypatch, capsys):
+    arrays = {"position": np.full((1, 3), 5e-3), "radius": np.array([3e-3]), "box": np.full(3, 0.1)}
+    still, asked = {"weight_balance": 0.0, "unbalanced_force": 0.02}, []
+
+    def spied(*given):
+        asked.append(given)
+        return arrays, still
+
+    for name in ("pour_spheres", "pour_on", "bonded"):
+        monkeypatch.setattr(specimens, name, spied)
+    monkeypatch.setattr(specimens, "is_compiled", lambda _: False)
+    box, surfaces, shaken = (0.1, 0.2, 0.3), an.Surfaces(0.4), an.Vibration(1e-3, 20.0, 0.5)
+    with pytest.warns(UserWarning, match="not at rest") as told:
+        packing = an.pour({6.0: 1}, box, seed=3, surfaces=surfaces, vibration=shaken, time_step_s=2e-4)
+    assert "compiling the core" in capsys.readouterr().err and told[0].filename == __file__
+    still["unbalanced_force"] = 0.0
+    an.pour(packing, box)
+    an.specimen(packing, {"d_mm": 60, "h_mm": 90, "mass_kg": 1, "mobile_mass_kg": 2})
+    an.specimen(packing, area="facets", volume_reduction=0.2, gap_max_mm=1.5)
+    poured, on, usual, cut = asked
+    assert (poured[0][0].tolist(), poured[0][1].tolist()) == ([6e-3], [1])
+    assert poured[1] == Pouring(box, 3, surfaces, shaken, 2e-4) and on[2] == Pouring(box)
+    assert on[0] is arrays["position"] and on[1] is arrays["radius"]
+    assert usual[2] == Cutting(0.1, "paper", 2.0) and usual[1].h == 0.09
+    assert cut[2] == Cutting(0.2, "facets", 1.5) and cut[1] == PAPER
 
 
 def test_what_a_specimen_shows(beam):

@@ -121,6 +121,16 @@ def test_conditions_are_those_that_the_tests_reach(monkeypatch):
     ]
 
 
+def test_the_draws_of_one_machine_are_those_asked_for(monkeypatch):
+    asked = []
+    monkeypatch.setattr(comparison, "pool", lambda *given: asked.append(given) or "pooled")
+    one, read = (SimpleNamespace(outcome=SimpleNamespace(diagnosis=made)) for made in ("made", None))
+    assert Comparison({"a": one, "b": one}).same_machine(an.Draws(700, 3)) == "pooled"
+    assert asked == [({"a": "made", "b": "made"}, 700, 3)]
+    with pytest.raises(an.InputError, match="read from files"):
+        Comparison({"a": one, "b": read}).same_machine()
+
+
 def test_progress_of_one_mix_is_a_part_of_all():
     told = []
     _part_of(lambda *said: told.append(said), 1, 4, "fit", 5.0, 10.0)

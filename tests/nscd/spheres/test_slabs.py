@@ -9,11 +9,12 @@ import pytest
 
 from asphalt_nscd.nscd.spheres.laws import ContactLaw
 from asphalt_nscd.nscd.spheres.neighbours import find_pairs
-from asphalt_nscd.nscd.spheres.slabs import FAIR, LAYER, MOST_SLABS, STRIPS, part_of, slabs_of
+from asphalt_nscd.nscd.spheres.slabs import part_of, slabs_of
 from asphalt_nscd.nscd.team import Team
 from asphalt_nscd.specimen.granular_bed import GranularBed, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 
+FAIR, LAYER, MOST_SLABS, STRIPS = 4, 5e-4, 256, 3  # stated again: all published layers rest on them
 WALLS = np.zeros((2, 3)), np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 1.0]])
 
 
