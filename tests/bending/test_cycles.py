@@ -1,13 +1,11 @@
-"""Specimens whose grains touch: through files and commands, and what is refused."""
+"""Specimens whose grains touch: which contacts they have, and what a test reads of them."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 import numpy as np
-import pandas as pd
 import pytest
-from click.testing import CliRunner
 from scipy.spatial import ConvexHull
 from theory.specimens import jittered_beam
 
@@ -18,10 +16,8 @@ from asphalt_nscd.bending.cycles import cycle, skeleton_of, stuck_stiffness
 from asphalt_nscd.bending.further_settings import Cycling
 from asphalt_nscd.bending.model import model_of
 from asphalt_nscd.bending.settings import Bonds
-from asphalt_nscd.cli import cycle as command
-from asphalt_nscd.files.store import Record, save
+from asphalt_nscd.files.store import Record
 from asphalt_nscd.rheology.burgers import Burgers
-from asphalt_nscd.rheology.laws_io import write_law
 
 LAW = Burgers(0.24e9, 0.04e9, 0.48e9, 0.008e9)
 CONTENT = condensed(jittered_beam(shape=(3, 2, 13), area="facets"), "beam", Bonds())
@@ -51,7 +47,7 @@ def test_contacts_are_the_least_gaps_and_their_forces_carry_the_pressure():
     assert stuck_stiffness(system, law, found, omega) == pytest.approx(expected, rel=1e-8)
 
 
-def test_a_beam_bends_with_contacts_and_its_file_is_that_of_the_command(monkeypatch, tmp_path):
+def test_a_beam_bends_with_contacts(monkeypatch):
     monkeypatch.setattr(cycles, "TOUCHING", 0.1)  # grains of this beam are apart
     model = model_of(Record(*CONTENT, ""))
     slight, strong = (
@@ -74,17 +70,3 @@ def test_a_beam_bends_with_contacts_and_its_file_is_that_of_the_command(monkeypa
     weak = replace(model, system=replace(model.system, strength=1e-9 * model.system.strength))
     programme = Cycling(amplitude_m=1e-4, haversine=False, all_cycles=4, read_cycles=2)
     assert cycle(weak, LAW, 10.0, programme).equals(strong)  # bonds of such a test do not break
-    save(tmp_path / "model.h5", "model", *CONTENT)
-    write_law(tmp_path / "law.json", LAW, source="stated", temperature=40.0)
-    options = "--temperature-c 40 --frequency-hz 10 --all-cycles 4 --read-cycles 2 --no-haversine".split()
-    options += ["--amplitude-m", "1e-4"]
-    given = [
-        str(tmp_path / "model.h5"),
-        "--law",
-        str(tmp_path / "law.json"),
-        "--output",
-        str(tmp_path / "t.csv"),
-    ]
-    told = CliRunner().invoke(command.command, [*given, *options], catch_exceptions=False)
-    assert f"phase {strong.attrs['phase_deg']:.2f} deg" in told.output
-    np.testing.assert_allclose(pd.read_csv(tmp_path / "t.csv"), strong, rtol=1e-6, atol=1e-15)

@@ -214,18 +214,6 @@ def test_commands_hold_and_command_a_force(tmp_path, common, prism):
     assert said["time_step_s"] == pytest.approx(1e-4) and said["scheme"] == "fitted"
 
 
-def test_other_tests_than_the_papers_are_stepped_by_the_fitted_scheme_unless_told(prism, common, tmp_path):
+def test_other_tests_than_the_papers_are_stepped_by_the_fitted_scheme(prism):
     assert Numerics.usual(50.0, PAPER) == Numerics()
     assert Numerics.usual(50.0, prism.geometry) == Numerics(1e-4, scheme="fitted")
-    for options, step, scheme in (
-        ([], 1e-4, "fitted"),
-        (["--time-step-s", "2e-4"], 2e-4, "euler"),
-        (["--scheme", "euler"], 5e-5, "euler"),
-        (["--method", "harmonic"], 5e-5, "euler"),
-    ):
-        test = [*common, "--frequency-hz", "50", "--cycles", "2", "--rest-steps", "10", *options]
-        CliRunner().invoke(
-            simulate_command.command, [*test, "--output", str(tmp_path / "test.h5")], catch_exceptions=False
-        )
-        said = load(tmp_path / "test.h5", "test").attributes
-        assert (said["time_step_s"], said.get("scheme", "euler")) == (pytest.approx(step), scheme), options

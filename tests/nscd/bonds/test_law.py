@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from theory.test_law import BURGERS, CHAIN, FREQUENCY, LAW, steady_modulus
 
+from asphalt_nscd.nscd.bonds.law import BondLaws
+
 
 def chain_modulus(omega):
     s = 1j * omega
@@ -66,3 +68,34 @@ def test_update_keeps_the_shape_of_a_network():
         one_sigma, one_kelvin = step.update(b, velocity[index], kelvin[at])
         assert new_sigma[index] == pytest.approx(one_sigma, rel=1e-14)
         np.testing.assert_allclose(new_kelvin[at], one_kelvin, rtol=1e-14)
+
+
+@pytest.mark.parametrize("law", [LAW, CHAIN, BondLaws.of_bonds((CHAIN,), np.array([0]))])
+def test_what_springs_store_and_dashpots_take(law):
+    """Bilinear: sigma^2/Em and Ek dk^2, sigma^2/eta_m and eta_k dk'^2, summed with a weight for each bond."""
+    one = law.table[0] if isinstance(law, BondLaws) else law
+    rng, weight = np.random.default_rng(2), np.array([1.0, 2.0, 4.0])
+    sigma, memory = rng.normal(size=(2, 3)), rng.normal(size=(2, law.memory, 3))
+    springs, dashpots = one.kelvin_springs[:, None], one.kelvin_dashpots[:, None]
+
+    def strain(a, b):
+        return float((weight * a * b).sum())
+
+    stored = (
+        weight * (sigma[0] * sigma[1] / one.spring + (springs * memory[0] * memory[1]).sum(axis=0))
+    ).sum()
+    taken = (weight * (sigma[0] ** 2 / one.dashpot + (dashpots * memory[1] ** 2).sum(axis=0))).sum()
+    pair = (sigma[0], memory[0]), (sigma[1], memory[1])
+    assert law.stored(strain, *pair) == pytest.approx(stored, rel=1e-12)
+    assert law.dissipated(strain, sigma[0], memory[0], memory[1]) == pytest.approx(taken, rel=1e-12)
+
+
+def test_coefficients_are_those_of_the_equations():
+    dt, damped = 1e-3, CHAIN.kelvin_dashpots + 1e-3 * CHAIN.kelvin_springs
+    recall, decay, gain, follow = CHAIN.step(dt).coefficients(2)
+    np.testing.assert_allclose(
+        recall, [1.0 / (dt * CHAIN.spring), *(-CHAIN.kelvin_springs / damped)], rtol=1e-14
+    )
+    np.testing.assert_allclose(decay, CHAIN.kelvin_dashpots / damped, rtol=1e-14)
+    np.testing.assert_allclose(gain, dt / damped, rtol=1e-14)
+    assert not follow.any()
