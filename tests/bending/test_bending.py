@@ -18,7 +18,7 @@ from asphalt_nscd.bending.settings import Bonds, Numerics
 from asphalt_nscd.cli import group
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import load
-from asphalt_nscd.measurements.signals import harmonic_response
+from asphalt_nscd.measurements.signals import harmonic_response, peak_response
 from asphalt_nscd.measurements.twopoint import complex_modulus
 from asphalt_nscd.nscd.bonds import implicit_operator as shifted
 from asphalt_nscd.nscd.stepping.condensed import CondensedState, CondensedStepper
@@ -258,6 +258,14 @@ def test_result_file(folder, model):
     assert columns["E_law_MPa"] == pytest.approx(abs(law) / 1e6, rel=1e-12)
     assert columns["phase_law_deg"] == pytest.approx(np.degrees(np.angle(law)), rel=1e-12)
 
+    history = [*(arrays[name] for name in ("time_s", "force_N", "displacement_m")), FREQUENCY]
+    fits = harmonic_response(*history, cycles=2), peak_response(*history, cycles=1)
+    for suffix, fit in zip(("", "_peak"), fits, strict=True):
+        star = complex_modulus(
+            model.geometry, FREQUENCY, fit.force_amplitude, fit.displacement_amplitude, fit.phase
+        )
+        assert columns[f"E{suffix}_MPa"] == pytest.approx(abs(star) / 1e6, rel=1e-12)
+        assert columns[f"phase{suffix}_deg"] == pytest.approx(np.degrees(np.angle(star)), rel=1e-10)
     # projection of the last two cycles, which are whole, instead of a least-squares fit
     last = slice(-500, None)
     carrier = np.exp(-80j * np.pi * arrays["time_s"][last])

@@ -12,11 +12,12 @@ from theory.specimens import jittered_beam
 from asphalt_nscd.bending import cycles
 from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.bending.condensing import condensed
-from asphalt_nscd.bending.cycles import cycle, skeleton_of, stuck_stiffness
+from asphalt_nscd.bending.cycles import cycle, run_cycles, skeleton_of, stuck_stiffness
 from asphalt_nscd.bending.further_settings import Cycling
 from asphalt_nscd.bending.model import model_of
 from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.files.store import Record
+from asphalt_nscd.rheology.as_run import Programme
 from asphalt_nscd.rheology.burgers import Burgers
 
 LAW = Burgers(0.24e9, 0.04e9, 0.48e9, 0.008e9)
@@ -67,6 +68,11 @@ def test_a_beam_bends_with_contacts(monkeypatch):
     one = cycle(model, LAW, 10.0, usual)
     assert one["force_N"].max() == pytest.approx(shape.usual_amplitude() * abs(stuck), rel=1e-9)
     assert abs(one.attrs["energy_error"]) < 0.02
+    chain, skeleton = bond_law(LAW), skeleton_of(model, 10e3, 0.5)
+    programme = Programme(False, 4, 2, True, 32)
+    test = run_cycles(model.system, chain, skeleton, 10.0, 1e-4 * abs(stuck), programme)
+    loop = np.trapezoid(test.force[-33:], test.displacement[-33:])  # the last cycle alone
+    assert test.work == pytest.approx(loop, rel=0.02) and test.taken == pytest.approx(loop, rel=0.02)
     weak = replace(model, system=replace(model.system, strength=1e-9 * model.system.strength))
     programme = Cycling(amplitude_m=1e-4, haversine=False, all_cycles=4, read_cycles=2)
     assert cycle(weak, LAW, 10.0, programme).equals(strong)  # bonds of such a test do not break

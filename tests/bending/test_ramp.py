@@ -104,6 +104,18 @@ def test_a_force_that_is_commanded_ends_at_the_break(beam, pulled):
     assert columns["energy_devices_J"] == 0.0 and abs(columns["energy_error"]) < 1e-9
 
 
+def test_a_force_goes_on_while_the_specimen_bears_it(beam, pulled):
+    """One bond alone can break: springs hold more than moves, and the record is whole."""
+    first = int(pulled[0]["broken"][0])
+    strength = np.full_like(beam.system.strength, np.inf)
+    strength[first] = 0.2 * beam.system.strength[first]
+    weak = replace(beam, system=replace(beam.system, strength=strength))
+    arrays, columns = ramp(
+        weak, QUICK, Ramp(duration_s=0.02, steps=40, force_N=0.5 * pulled[1]["peak_force_N"])
+    )
+    assert (arrays["broken"].tolist(), arrays["force_N"].size, columns["ended"]) == ([first], 40, "")
+
+
 def test_by_command_and_in_files(tmp_path):
     save(tmp_path / "model.h5", "model", *content())
     write_law(tmp_path / "law.json", QUICK, source="stated", temperature=15.0)
