@@ -304,12 +304,16 @@ def test_a_step_repeated_by_hand_is_no_damage_and_a_digest_cut_short_no_verdict(
     assert run(*page, env=INSIDE, cwd=tmp_path).returncode == 2
     made = tmp_path / "results/mine/.page.html.sha256"
     before = made.read_text()
+    assert cli.CPU_TIME not in run(*page, env=INSIDE, cwd=tmp_path).stderr  # it is refused again
     table.write_text("a\n2\n")
-    assert run(*page, cwd=tmp_path).returncode == 0
+    assert run(*page, cwd=tmp_path).stderr == ""
     assert made.read_text() != before
     made.unlink()
     assert run(*page, cwd=tmp_path).returncode == 0
     assert not made.exists()
+    digest.unlink(missing_ok=True)
+    said = run(*page, env=INSIDE, cwd=tmp_path).stderr
+    assert re.search(rf"^{cli.CPU_TIME}\d+\.\d+ s, memory: ", said, re.M)
 
 
 @pytest.mark.parametrize("threads", ["0", "-2", "1000000"])

@@ -11,6 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from asphalt_nscd.bending.settings import Bonds
+from asphalt_nscd.cli import group
 from asphalt_nscd.cli._options import offered, step
 from asphalt_nscd.files.options import Ranged, option, options_of
 from asphalt_nscd.specimen.settings import Vibration
@@ -69,6 +70,27 @@ def test_values_arrive_in_the_unit_of_the_field():
 )
 def test_what_is_wrong_is_answer(arguments, names):
     assert all(name in answer(*arguments) for name in names)
+
+
+COLD, ZERO = ("-273.1", "-273.15"), ("1e-9", "0")
+RANGES = [
+    *((step, "temperature_c", *COLD) for step in "chain-law cycle fit hold published-law ramp simulate".split()),
+    *((step, "frequency_hz", *ZERO) for step in ("cycle", "fatigue", "simulate")),
+    *(("chain-law", name, *ZERO) for name in ("lowest_hz", "highest_hz", "tolerance", "factor")),
+    ("condense", "stand_by", "0", "-1"), ("diagnose", "jobs", "1", "0"), ("extend", "number", "0", "-1"),
+    ("extend", "amplitude_m", *ZERO), ("export", "temperatures_c", *COLD), ("export", "frequencies_hz", *ZERO),
+    ("fatigue", "finer", "0.1", "0.09"), ("fatigue", "finer", "1e4", "1.1e4"), ("fatigue", "strain", "0.1", "0.11"),
+    ("fclib", "tolerance", *ZERO), ("reduce", "cycles", "1", "0"), ("serve", "port", "0", "-1"),
+    ("serve", "port", "65535", "65536"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("step", "name", "inside", "outside"), RANGES)
+def test_the_last_value_of_a_range_is_taken_and_the_next_is_not(step, name, inside, outside):
+    (asked,) = (one for one in group.get_command(None, step).params if one.name == name)
+    asked.type.convert(inside, asked, None)
+    with pytest.raises(click.BadParameter):
+        asked.type.convert(outside, asked, None)
 
 
 def test_help_has_the_default_in_the_unit_of_the_option():
