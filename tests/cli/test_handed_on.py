@@ -441,3 +441,23 @@ def test_provenance_and_new_studies(replaced):
         "s",
         {"E_GPa": "x"},
     )
+
+
+def test_serving_this_machine_alone(monkeypatch):
+    """On a free port; the page is opened unless it shall not be, and what was dropped is removed in the end."""
+    done: list[Any] = []
+    desks = SimpleNamespace(folder="folder", close=lambda: done.append("closed"))
+    app = SimpleNamespace(config={"TOKEN": "secret", "DESKS": desks})
+    janitor = SimpleNamespace(communicate=lambda: done.append("gone"))
+    server = SimpleNamespace(server_port=5001, serve_forever=lambda: done.append("served"))
+    monkeypatch.setattr("asphalt_nscd.web.app.create_app", lambda: app)
+    monkeypatch.setattr("asphalt_nscd.web.janitor.watch", lambda folder: done.append(folder) or janitor)
+    monkeypatch.setattr("werkzeug.serving.make_server", lambda *given, **more: done.append(given) or server)
+    monkeypatch.setattr("webbrowser.open", done.append)
+    monkeypatch.setattr("signal.signal", lambda *given: None)
+    address = "http://127.0.0.1:5001/secret/"
+    assert f"Drop measurements on {address}\n" in run("serve").output
+    assert done == [("127.0.0.1", 0, app), "folder", address, "served", "closed", "gone"]
+    done.clear()
+    run("serve --port 8000 --no-browser")
+    assert done == [("127.0.0.1", 8000, app), "folder", "served", "closed", "gone"]
