@@ -10,11 +10,13 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import click
 import numpy as np
 import pandas as pd
 import pytest
+from click.testing import CliRunner
 from forks import forked
 from matplotlib.figure import Figure
 
@@ -52,6 +54,38 @@ def test_every_step_is_listed_and_explains_itself():
         command = cli.group.get_command(None, step)
         assert command.help, step
         assert all(option.help for option in command.params if isinstance(option, click.Option)), step
+    shown = CliRunner().invoke(cli.group, ["--help"]).output
+    first, others = shown.partition("For your measurements")[2].split("Steps of the workflow")
+    named = re.findall(r"^  ([a-z-]+)  ", first, re.M)
+    assert named == ["diagnose", "serve", "compare", "forecast", "export", "new-study"]
+    assert sorted([*named, *re.findall(r"^  ([a-z-]+)  ", others, re.M)]) == steps
+    said = CliRunner().invoke(cli.group, ["--version"]).output
+    assert said.startswith(f"asphalt-nscd {cli.__version__}, commit ")
+
+
+def make_a_table():
+    """A script of the workflow with the inputs `one` and `code`; in a process of its own."""
+    folder = Path(sys.argv[1])
+
+    class Inputs(list):
+        def items(self):
+            return zip(("one", "code"), self)
+
+    def make(one):
+        print("made of", one)
+        return pd.DataFrame({"x": [1.5, 2.0]})
+
+    inputs = Inputs([str(folder / "given.csv"), "stamp"])
+    job = SimpleNamespace(log=[str(folder / "log")], input=inputs, output=[folder / "made.csv"])
+    cli.run_table(job, make)
+
+
+def test_a_script_logs_what_it_says_and_writes_its_table(tmp_path):
+    (tmp_path / "log").write_text("of an earlier run, which was longer\n" * 9)
+    done = forked(f"{__name__}:make_a_table", [str(tmp_path)])
+    assert (done.returncode, done.stdout) == (0, "")
+    assert (tmp_path / "log").read_text() == f"made of {tmp_path}/given.csv\n"
+    assert (tmp_path / "made.csv").read_text().split() == ["x", "1.5", "2"]
 
 
 @pytest.mark.parametrize("page", ["cp437", "cp1252"])
