@@ -135,6 +135,7 @@ def test_a_possible_cause_is_not_shown_as_a_certain_one(tmp_path):
         verdict="identified",
     )
     table = Comparison({"mix": one, "other": one}).table
+    assert list(table)[:4] == ["mix", "rank_low", "rank_high", "test"] and (table["rank_high"] == 2).all()
     assert table[["check_first", "left_out"]].to_numpy().tolist() == [[6, 1]] * 2
     assert table["causes"].tolist() == ["channel delay"] * 2
     assert table["possible_causes"].tolist() == ["temperature bias at 40 degC (68 %)"] * 2

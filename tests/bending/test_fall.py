@@ -28,7 +28,9 @@ def small():
 def test_it_starts_at_rest_over_the_floor_in_two_pieces(small):
     world = released(small, QUICK_LAW, Fall(height=3e-3, tilt=90.0, sawn=0.5), Bonds())
     assert (world.position[:, 2] - world.radius).min() == pytest.approx(3e-3)
-    assert np.ptp(world.position[:, 0]) > np.ptp(world.position[:, 2])  # it lies
+    x, y, z = small.position.T
+    np.testing.assert_allclose(world.position[:, :2], np.stack([z, y], axis=1), atol=1e-15)  # it lies along x
+    np.testing.assert_allclose(np.diff(world.position[:, 2]), -np.diff(x), atol=1e-15)
     assert np.abs(world.opening()).max() < 1e-15
     assert world.mass.reshape(-1, 6)[:, 0].sum() == pytest.approx(small.geometry.mass)
     foot = small.position[:, 2] < 0.5 * small.geometry.h
