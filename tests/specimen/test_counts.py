@@ -16,6 +16,9 @@ from asphalt_nscd.specimen.counts import read_counts
         ("diameter_mm,count\n0,4\n", "diameter_mm"),
         ("diameter_mm,count\n2,nan\n", "count"),
         ("diameter_mm\n2\n", "count"),
+        ("diameter_mm,count\n2,6e6\n3,4000001\n", "counts 1e.07 spheres; give at most 1e.07"),
+        ("diameter_mm,count\n0.009,4\n", "diameter_mm"),
+        ("diameter_mm,count\n100.1,4\n", "diameter_mm"),
     ],
 )
 def test_counts_that_cannot_be_poured(tmp_path, text, message):
@@ -26,7 +29,7 @@ def test_counts_that_cannot_be_poured(tmp_path, text, message):
 
 
 def test_counts_are_read_in_metres(tmp_path):
-    (path := tmp_path / "counts.csv").write_text("diameter_mm,count\n2,300\n3,160\n4,70\n")
+    (path := tmp_path / "counts.csv").write_text("diameter_mm,count\n0.01,9999700\n3,300\n100,0\n")
     diameters, counts = read_counts(path)
-    np.testing.assert_allclose(diameters, [2e-3, 3e-3, 4e-3], rtol=1e-15)
-    assert counts.tolist() == [300, 160, 70] and counts.dtype.kind == "i"
+    np.testing.assert_allclose(diameters, [1e-5, 3e-3, 0.1], rtol=1e-15)
+    assert counts.tolist() == [9_999_700, 300, 0] and counts.dtype.kind == "i"

@@ -8,6 +8,7 @@ import pytest
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen import preparation, settings
+from asphalt_nscd.specimen.given_spheres import overlaps, require_spheres
 from asphalt_nscd.specimen.granular_bed import LARGEST_RATIO, PouringNumerics
 from asphalt_nscd.specimen.lattice import random_lattice
 from asphalt_nscd.specimen.settings import Pouring, Vibration
@@ -43,6 +44,32 @@ def trimmed(long=1.0, high=1.3, reach=2e-3, larger=1.0):
     return trim(position, radius, GEOMETRY, 0.1, reach)
 
 
+def far_off(place, size=1.0):
+    position = np.array([[0.0, 0.0, 0.0], [0.0, place, 0.0]])
+    require_spheres("these", position, np.array([1.0, size]))
+
+
+def test_overlaps_of_some_spheres():
+    """The largest is not that of the largest share; a hundredth of the smaller radius counts, and 1 um is touching."""
+    radius = np.array([2.0, 2.0, 1.0, 1.0, 2.0, 2.0])
+    position = np.zeros((6, 3))
+    position[:, 0] = np.array([0.0, 3.85, 6.75, 8.749, 11.7490005, 15.7490025])
+    found = overlaps(position, radius)
+    assert found.touching.tolist() == [[0, 1], [1, 2], [2, 3], [4, 3]]
+    assert (found.largest, found.share) == pytest.approx((0.15, 0.1)) and (found.pair, found.count) == (
+        (2, 3),
+        2,
+    )
+    apart = overlaps(2.0 * position, radius)
+    assert (apart.largest, apart.share, apart.pair, apart.count, len(apart.touching)) == (
+        0.0,
+        0.0,
+        (0, 0),
+        0,
+        0,
+    )
+
+
 # What is asked, the first that is refused, the last that is not, and the mend.
 LIMITS = {
     "box of one sphere": (lambda side: strewn([1, 1], (0.01, side, 0.01)), 3.9e-3, 4e-3, "largest sphere.*enlarge"),
@@ -62,6 +89,9 @@ LIMITS = {
         lambda times: PouringNumerics.of(1e-3 * np.array([1.0, times * LARGEST_RATIO]), 4e-4),
         1.01, 1.0, "leave out the smallest",
     ),
+    "far": (far_off, -1.01e6, -0.99e6, "these: sphere 2 is more than 1000 km away or wide"),
+    "wide": (lambda size: far_off(1.0, size), 1.01e6, 0.99e6, "sphere 2 is more than 1000 km away or wide"),
+    "masked": (lambda kind: require_spheres("", kind([[0, 0, 0]]), np.ones(1)), np.ma.array, np.array, "masked arrays"),
     "low layer": (lambda high: trimmed(high=high, larger=0.7), 0.99, 1.01, r"19\.8 mm high, less than the foot .*20"),
     "bonds": (lambda reach: trimmed(reach=reach), 1e-5, 2e-3, "no sphere is left after trimming"),
     "box shorter than the specimen": (lambda long: trimmed(long), 0.95, 0.98, r"no chain .* is high \(60.0 mm\)"),
