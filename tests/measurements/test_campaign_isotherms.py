@@ -27,6 +27,7 @@ def grouped(*temperature, tests=None):
         ((20.0, 21.0), (20.0, 21.0)),
         ((20.0, 20.6), (20.0, 20.6)),
         ((20.0, 20.5), (20.2, 20.2)),
+        ((20.0, 20.0, 20.0, 20.4), (20.1, 20.1, 20.1, 20.1)),
         ((19.5, 20.0, 20.5), (20.0, 20.0, 20.0)),  # the whole range that T 378 allows
         ((19.4, 19.9, 20.4, 20.6), (19.4, 19.9, 20.4, 20.6)),  # a chain wider than that is left alone
         ((-10.1, -9.9, 9.9, 10.1), (-10.0, -10.0, 10.0, 10.0)),
@@ -58,30 +59,33 @@ def table(**columns):
 
 
 def test_targets_of_the_machine_decide():
-    measured = [20.2, 20.4, 19.6, 21.9]
+    measured = [20.2, 20.4, 19.6, 21.9, 20.4]
     given = table(
-        specimen="AABB",
-        frequency_Hz=[10, 1, 10, 1],
+        specimen="AABBB",
+        frequency_Hz=[10, 1, 10, 1, 2],
         temperature_C=measured,
-        nominal_temperature_C=[20, 21, "", ""],
+        nominal_temperature_C=[20, 20.6, "", "", ""],
     )
-    assert nominal_temperatures(given, np.array(measured)).tolist() == [20.0, 21.0, 20.0, 21.9]
+    assert nominal_temperatures(given, np.array(measured)).tolist() == [20.0, 20.6, 20.0, 21.9, 20.6]
 
 
 @pytest.mark.parametrize(
-    ("specimens", "readings", "isotherm"),
+    ("specimens", "readings", "targets", "isotherm"),
     [
-        ("AABB", (21.0, 21.1, 20.9, 21.0), [21.0] * 4),  # two operators, one bath
-        ("AAAB", (21.0, 21.1, 20.9, 21.0), [20.0, 20.0, 21.0, 21.0]),  # A was tested at both
-        ("AABB", (20.1, 20.0, 20.9, 21.0), [20.0, 20.0, 21.0, 21.0]),  # and so was the bath
+        ("AABB", (21.0, 21.1, 20.9, 21.0), (20, 21), [21.0] * 4),  # two operators, one bath
+        ("AABB", (20.0, 20.1, 20.2, 20.3), (20, 21), [20.0] * 4),
+        ("AABB", (20.0, 20.2, 20.5, 20.7), (20, 21), [20.0] * 4),  # half a degree apart
+        ("AAAB", (21.0, 21.1, 20.9, 21.0), (20, 21), [20.0, 20.0, 21.0, 21.0]),  # A was tested at both
+        ("AABB", (20.1, 20.0, 20.9, 21.0), (20, 21), [20.0, 20.0, 21.0, 21.0]),  # and so was the bath
+        ("AABB", (21.0, 21.1, 20.9, 21.0), (20, 22), [20.0, 20.0, 22.0, 22.0]),  # too far apart
     ],
 )
-def test_two_targets_held_at_one_temperature_are_one(specimens, readings, isotherm):
+def test_two_targets_held_at_one_temperature_are_one(specimens, readings, targets, isotherm):
     given = table(
         specimen=specimens,
         frequency_Hz=[10, 1, 10, 1],
         temperature_C=readings,
-        nominal_temperature_C=[20, 20, 21, 21],
+        nominal_temperature_C=np.repeat(targets, 2),
     )
     assert nominal_temperatures(given, np.array(readings)).tolist() == isotherm
 

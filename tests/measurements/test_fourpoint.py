@@ -9,6 +9,7 @@ from theory.specimens import jittered_beam
 
 import asphalt_nscd as an
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements import fourpoint
 from asphalt_nscd.measurements.fourpoint import SHARE_OF_MASS, Beam
 from asphalt_nscd.measurements.geometry import read_shape, require_within, shape_of
 from asphalt_nscd.nscd.bonds.system import BondedSystem
@@ -60,8 +61,13 @@ def test_keys_say_the_test_and_files_keep_it():
     assert isinstance(beam, Beam) and shape_of(beam.attributes()) == beam
     assert beam.keys() == pytest.approx(T321)
     assert region_of(beam).volume == pytest.approx(0.357 * 0.05 * 0.063)
+    normal, offset = beam.faces()
+    assert (np.abs(normal).T @ offset).tolist() == pytest.approx([0.05, 0.063, 0.357])  # from face to face
+    assert fourpoint.T321.mass == pytest.approx(2400 * 0.357 * 0.05 * 0.063, rel=2e-3)
     with pytest.raises(InputError, match="key 'h_mm' is not known; give exactly L_mm, H_mm, B_mm"):
         read_shape(T321 | {"h_mm": 10})
+    # 36 times a thousandth is more than 0.036
+    require_within(read_shape(T321 | {"B_mm": 36}), (0.357, 0.036, 0.01))
     with pytest.raises(InputError, match="357 mm high, but the box only 300 mm long; lower L_mm"):
         require_within(beam, (0.3, 0.1, 0.5))
     with pytest.raises(InputError, match="63 mm thick, but the box only 40 mm wide; lower B_mm"):

@@ -11,7 +11,7 @@ import yaml
 from asphalt_nscd.diagnosis.content.reading import Reading
 from asphalt_nscd.measurements.further_kinds import ALL_KINDS
 from asphalt_nscd.measurements.geometry import USUAL
-from asphalt_nscd.measurements.kinds import BENDING, UNKNOWN
+from asphalt_nscd.measurements.kinds import BENDING, UNKNOWN, usual_steps_per_cycle
 from asphalt_nscd.table_import.words import WORDS
 
 ROOT = Path(__file__).parents[2]
@@ -34,5 +34,6 @@ def test_what_can_be_diagnosed():
 
 def test_what_can_be_simulated():
     assert properties(STUDY, "test", "type")["enum"] == list(USUAL)
+    assert [usual_steps_per_cycle(test) for test in USUAL] == [None, 200, 200]
     rules = (ROOT / "workflow/rules/rigs.smk").read_text(encoding="utf-8")
     assert [BENDING, *re.findall(r'"\w+": "([\w -]+)"', rules)] == list(USUAL)

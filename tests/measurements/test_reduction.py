@@ -8,9 +8,19 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.geometry import read_geometry
-from asphalt_nscd.measurements.reduction import KEYS, REDUCED_COLUMNS, read_reduced, reduce_table
+from asphalt_nscd.measurements.limits import least_modulus
+from asphalt_nscd.measurements.reduction import (
+    KEYS,
+    REDUCED_COLUMNS,
+    is_reduced,
+    read_reduced,
+    reduce_table,
+    reduced_frame,
+    require_enough,
+)
 from asphalt_nscd.measurements.twopoint import Geometry, complex_modulus, head_response, norm_and_phase
 from asphalt_nscd.rheology.published_laws import read_published
 
@@ -196,7 +206,10 @@ BAD_TABLES = {
     ),
     "radians, cold": ([M, "A,-10,10,39000,.026"], "is it in radians?"),
     "psi in radians": ([P, "A,15,10,30,63e-6,.25"], "the largest phase is 0.249: is it in radians?"),
-    "phase reversed": ([M, "A,15,10,20000,-14"], "the force leads: remove the minus signs."),
+    "phases reversed": (
+        [M, "A,15,10,20000,-14", "A,15,25,21000,-13", "A,25,10,9000,20"],
+        "the force leads: remove the minus signs.",
+    ),
     "z0 in micrometres": ([P, "A,15,10,50,63,14"], "line 2: z0_m = 63 is outside"),
     "z0 in mm under m": ([P, "A,15,10,50,1e-3,14", "A,15,25,50,.063,14"], "line 3: z0_m = 0.063 is outside"),
     "F0 in kN": ([P, "A,15,10,.05,63e-6,14"], "check F0 in N"),
@@ -258,8 +271,44 @@ def test_cold_mixes_with_small_phases_are_no_mistake(write):
 
 
 def test_a_few_negative_phases_are_kept_for_the_diagnosis(write):
-    frame = reduce(write(M, "A,-10,40,40000,-0.5", "A,-10,10,39000,2", "A,0,10,33000,5"))
-    assert frame["phase_deg"].min() == -0.5
+    """Which are so few that their median is above zero, though their mean is not."""
+    frame = reduce(write(M, "A,-10,40,40000,-9", "A,-10,10,39000,2", "A,0,10,33000,5"))
+    assert frame["phase_deg"].min() == -9
+
+
+def test_columns_beside_temperature_and_frequency_may_tell_tests_apart(write):
+    rows = ["A,15,10,20000,14,1,5e-5", "A,15,10,20500,14,2,5e-5", "A,15,10,20500,14,2,6e-5"]
+    table = read_csv(write(M + ",replicate,amplitude_m", *rows))
+    frame = reduced_frame(table, {}, tests=(*KEYS, "replicate", "amplitude_m"))
+    assert frame["replicate"].tolist() == ["1", "2", "2"] and frame["amplitude_m"].tolist() == [
+        5e-5,
+        5e-5,
+        6e-5,
+    ]
+    with pytest.raises(InputError, match="line 4: repeats the test of line 3, with equal values"):
+        reduced_frame(table, {}, tests=(*KEYS, "replicate"))
+
+
+def test_a_reduced_table_has_peaks_of_both_kinds_beside_its_moduli():
+    assert is_reduced([*REDUCED_COLUMNS, "further"])
+    assert not any(is_reduced({*REDUCED_COLUMNS} - {name}) for name in ("E_peak_MPa", "E_MPa", "z0_m", *KEYS))
+
+
+def test_a_diagnosis_takes_four_tests_at_two_frequencies():
+    require_enough(4, 2)
+    for tests, frequencies, words in ((3, 2, "3 tests at 2 freq"), (9, 1, "9 tests at 1 frequency are")):
+        with pytest.raises(InputError, match=words):
+            require_enough(tests, frequencies)
+
+
+def test_the_softest_mixes():
+    """MPa at 1 Hz; ten times faster is 9 K colder, and between two temperatures it falls by decades."""
+    softest = {-20: 1000, 0: 300, 10: 120, 30: 25, 50: 6, 70: 2, 90: 1}
+    at = np.array([-40, *softest, 110])
+    for frequency, colder in ((1.0, 0.0), (10.0, 9.0), (0.01, -18.0)):
+        found = least_modulus(at + colder, frequency)
+        assert found == pytest.approx([1000, *softest.values(), 1], rel=1e-12)
+    assert least_modulus(5.0, 1.0) == pytest.approx(np.sqrt(300 * 120), rel=1e-12)
 
 
 G = "specimen,b_mm,B_mm,e_mm,h_mm,mass_kg,mobile_mass_kg"
@@ -297,6 +346,7 @@ def test_bad_geometry_tables_are_refused(write, case):
         (MAPPING | {"h_mm": 6 * 10**400}, "00 is not a number from 20 to 1000; give the height in mm"),
         (MAPPING | {"h_mm": math.nan}, "geometry: h_mm = nan is not a number"),
         (MAPPING | {"b_mm": 60}, "geometry: geometry: the head"),
+        (MAPPING | {"mass_kg": True}, "geometry: mass_kg = True is not a number from 0.001 to 20"),
     ],
 )
 def test_bad_geometry_mappings_are_refused(write, mapping, words):

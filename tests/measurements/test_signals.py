@@ -33,7 +33,8 @@ def test_harmonic_fit_is_exact_under_offset_and_drift(frequency, cycles):
 
 def test_peak_picking_is_as_good_as_the_sampling():
     step = 5e-5
-    response = peak_response(*record(step=step), FREQUENCY)
+    time, force, displacement = record(step=step)
+    response = peak_response(time, force + 300.0, displacement - 1e-3, FREQUENCY)
     assert_response(response, 1e-5, 0.51 * 360 * FREQUENCY * step)
     assert response.phase == pytest.approx(PHASE, abs=2 * np.pi * FREQUENCY * step)
 
@@ -70,6 +71,24 @@ def test_default_window_is_the_last_ten_seconds():
     assert_response(harmonic_response(time, spoilt, displacement, FREQUENCY), 1e-9, 1e-7)
     spoilt = np.where(time < 20.1, 3 * force, force)
     assert harmonic_response(time, spoilt, displacement, FREQUENCY).force_amplitude > 1.005 * FORCE
+
+
+@pytest.mark.parametrize(("overtone", "share"), [(0.32, ""), (0.35, "89")])
+def test_nine_tenths_of_the_displacement_are_a_sinusoid(overtone, share):
+    """Of cos + a cos 2, without its drift, the sinusoid is 1 / (1 + a^2): 0.907 and 0.891."""
+    time, force, displacement = record()
+    bent = displacement + overtone * DISPLACEMENT * np.sin(4 * np.pi * FREQUENCY * time) + 3e-4 * time
+    if share:
+        with pytest.raises(InputError, match=f"explains only {share} % of the variation"):
+            harmonic_response(time, force, bent, FREQUENCY)
+    else:
+        assert_response(harmonic_response(time, force, bent, FREQUENCY), 1e-3, 0.01)
+
+
+def test_times_rounded_in_print_are_no_gaps():
+    """To a millisecond, of steps of 2.5: they come as 2 and 3."""
+    time, force, displacement = record(step=2.5e-3)
+    assert_response(harmonic_response(np.round(time, 3), force, displacement, FREQUENCY), 1e-2, 0.5)
 
 
 def changed(name, value, index=100):

@@ -41,7 +41,7 @@ def test_the_phase_below_the_lowest_lies_on_a_line_over_ln_f():
 
 
 def test_all_phases_of_one_sweep_with_the_wrong_sign():
-    row, said = wrong_sign(with_phases([-20.0, -19.0, -18.0, -18.0, -17.0, -16.0]))
+    row, said = wrong_sign(with_phases([-20.0, -19.0, -18.0, -18.0, -17.0, -7.0]))
     assert campaign().eval(SWEEP)[row]
     assert said.startswith("all phases of specimen B at 21 degC are negative (median -18 deg)")
     assert said.endswith(": the signs are wrong; remove the minus signs.")
@@ -50,6 +50,27 @@ def test_all_phases_of_one_sweep_with_the_wrong_sign():
 def test_two_of_one_sweep_name_the_first():
     row, said = wrong_sign(with_phases([30.0, -29.0, 28.0, -26.0, 25.0, 24.0]))
     assert campaign()["frequency_Hz"][row] == 0.5 and "-29" in said
+
+
+@pytest.mark.parametrize(
+    ("phases", "told"),
+    [
+        ([8.0, 7.5, 7.0, 6.5, 6.0, -5.5], ""),  # less than 6 deg may be scatter
+        ([16.0, 15.0, 14.0, 13.0, 12.0, -10.5], "+9 deg"),  # 12 less 0.2 for each of 15 Hz
+        ([44.0, 43.0, 42.0, 41.0, 40.9, -33.0], "+40.6 deg"),  # within a fifth
+        ([44.0, 43.0, 42.0, 41.0, 40.9, -31.0], ""),
+        ([44.0, 43.0, 42.0, 20.0, 30.0, -29.0], "+30 deg"),  # a delay does not let phases rise
+    ],
+)
+def test_a_sign_is_wrong_where_the_phase_turned_is_near_what_the_others_ask(phases, told):
+    found = wrong_sign(with_phases(phases))
+    assert found is None if not told else told in found[1]
+
+
+def test_a_frequency_that_is_negative_in_most_sweeps_is_the_machine_s():
+    table = with_phases(-15.0, "frequency_Hz == 25.0 and (specimen != 'A' or temperature_C > 0.0)")
+    assert wrong_sign(table) is None
+    assert wrong_sign(with_phases(-15.0, "frequency_Hz == 25.0 and specimen == 'B'")) is not None
 
 
 @pytest.mark.parametrize("delay", [1e-3, 2e-3, 3e-3, 4e-3, 6e-3])

@@ -55,7 +55,16 @@ def test_origin_names_all_there_are():
 
 
 def test_rows_of_one_temperature():
-    frame = pd.DataFrame({"temperature_C": [15.0, 15.0 + 1e-9, 20.0]})
+    frame = pd.DataFrame({"temperature_C": [15.0, 15.0 + 1e-9, 15.1, 20.0]})
     assert len(results.isotherm_rows(frame, 15.0)) == 2
     with pytest.raises(InputError, match="no test at 5 degC; the table has 15"):
         results.isotherm_rows(frame, 5.0)
+
+
+def test_one_file_or_at_least_one_is_asked_for():
+    assert str(results.only_file(iter(["a.csv"]), "measured")) == "a.csv"
+    for paths in ([], ["a.csv", "b.csv"]):
+        with pytest.raises(InputError, match=f"{len(paths)} files given as 'measured'"):
+            results.only_file(paths, "measured")
+    with pytest.raises(InputError, match="no table given"):
+        results.read_measured([])

@@ -8,7 +8,9 @@ from scipy.integrate import quad
 
 import asphalt_nscd as an
 from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.measurements import tension
 from asphalt_nscd.measurements.geometry import read_geometry, read_shape, shape_of
+from asphalt_nscd.measurements.shape import DRIVEN, FREE, HELD, Plate
 from asphalt_nscd.measurements.tension import Cylinder
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen.network import region_of
@@ -40,11 +42,23 @@ def test_faces_enclose_the_section_of_the_circle():
 
 
 def test_gyration_is_that_of_thin_plates():
-    disc, plate = read_shape(AMPT).gyration(), read_shape(TRAPEZOID).gyration()
+    disc, plate = read_shape(AMPT).gyration(), read_shape(TRAPEZOID | {"e_mm": 40}).gyration()
+    beam = read_shape({"L_mm": 357, "H_mm": 50, "B_mm": 63, "mass_kg": 2.7, "mobile_mass_kg": 0.5}).gyration()
     second = quad(lambda r: r**3 / 0.05**2, 0.0, 0.05)[0]  # mean of x^2 over a disc: half of the mean of r^2
     assert disc == pytest.approx([second, second, 2 * second])
-    x2, y2 = 0.025**2 / 12, 0.025**2 / 12
-    assert plate == pytest.approx([y2, x2, x2 + y2])
+    for found, x2, y2 in ((plate, 0.025**2 / 12, 0.04**2 / 12), (beam, 0.05**2 / 12, 0.063**2 / 12)):
+        assert found == pytest.approx([y2, x2, x2 + y2])
+
+
+def test_the_cylinder_of_t_378():
+    ampt = tension.AMPT
+    assert ampt.mass == pytest.approx(2400 * np.pi * 0.05**2 * 0.15, rel=2e-3)
+    assert ampt.usual_amplitude() == pytest.approx(0.5 * 100e-6 * 0.15)
+    assert ampt.line(np.array([0.0, 0.075, 0.15])).tolist() == pytest.approx([0.0, 0.5, 1.0])
+    assert ampt.counted_share(0.35) == 1.0
+    along = (FREE, FREE, DRIVEN, FREE, FREE, FREE)
+    assert ampt.plates == (Plate(0.15, along, 1.0), Plate(0.0, (HELD,) * 6, 0.0))
+    assert [plate.moves for plate in ampt.plates] == [True, False]
 
 
 def test_keys_say_the_test_and_files_keep_it():

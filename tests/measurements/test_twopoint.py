@@ -104,6 +104,15 @@ def test_impossible_geometry_is_refused(change, words):
         Geometry(**(values | change))
 
 
+def test_each_face_holds_four_corners_and_has_the_others_behind_it():
+    x, y = (0.025, 0.056), (-0.0125, 0.0125)
+    corners = np.array([(s * w / 2, e, z) for w, z in zip(x, (0.25, 0.0)) for s in (-1, 1) for e in y])
+    normal, offset = PAPER.faces()
+    behind = offset - corners @ normal.T
+    assert (np.abs(behind) < 1e-15).sum(axis=0).tolist() == [4] * 6 and behind.min() > -1e-15
+    assert np.linalg.norm(normal, axis=1) == pytest.approx(np.ones(6), rel=1e-14)
+
+
 @pytest.mark.parametrize("foot", [1.0, 2.24])
 def test_elastic_line_is_that_of_the_second_moment_of_area(foot):
     """w'' = M/EI with I = e w^3/12 of a width that grows to `foot` times that of the head, by quadrature."""

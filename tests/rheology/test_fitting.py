@@ -1,6 +1,6 @@
 """Fits find the law that made the data, and say how well they know it."""
 
-from dataclasses import astuple
+from dataclasses import astuple, replace
 
 import numpy as np
 import pytest
@@ -52,6 +52,15 @@ def test_an_interval_is_student_s_on_the_logarithm():
         assert np.log([low / value, high / value]) == pytest.approx(
             np.array([-t, t]) * error / value, rel=1e-5
         )
+
+
+def test_a_parameter_known_no_better_than_a_third_of_itself_is_undetermined():
+    fit = fit_burgers(OMEGA, LAWS[30].complex_modulus(OMEGA))
+    values = dict(zip(NAMES, astuple(fit.law), strict=True))
+    shares = {"modulus_m": 0.34, "viscosity_m": 0.36, "modulus_k": 0.01, "viscosity_k": 3.0}
+    known = replace(fit, std_error={name: share * values[name] for name, share in shares.items()})
+    assert known.undetermined == ("viscosity_m", "viscosity_k")
+    assert replace(known, unseen=("modulus_k",)).undetermined == NAMES[1:]
 
 
 @pytest.mark.parametrize("lowest", [-2.0, 2.0])

@@ -76,6 +76,7 @@ def test_bad_chains_are_refused_by_name(tmp_path, changes, words):
         (15.0, 3.0, ""),
         (15.0, 40.0, ""),
         (35.0, 10.0, "holds at 15 degC only, not at 35; ask for 15 degC"),
+        (5.0, 10.0, "holds at 15 degC only, not at 5; "),
         (15.0, 100.0, "a Kelvin chain for 3 to 40 Hz, which says nothing at 100 Hz"),
         (15.0, 0.5, "says nothing at 0.5 Hz"),
     ],

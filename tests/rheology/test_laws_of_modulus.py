@@ -64,6 +64,13 @@ def test_the_cam_law_is_as_published():
 
 
 @pytest.mark.parametrize("law", [SIGMOID, CAM_LAW])
+def test_the_slope_is_that_of_the_modulus(law):
+    x = np.linspace(-30.0, 20.0, 11)
+    slope = (law.log_modulus(x + 1e-5) - law.log_modulus(x - 1e-5)) / 2e-5
+    assert law.log_slope(x) == pytest.approx(slope, rel=1e-6, abs=1e-9)
+
+
+@pytest.mark.parametrize("law", [SIGMOID, CAM_LAW])
 def test_slopes_are_those_of_the_law(law):
     slopes = law.log_slopes(OMEGA, TEMPERATURE)
     for column, name in enumerate(parameters(law)):

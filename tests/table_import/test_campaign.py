@@ -9,7 +9,7 @@ from table_import.slips import columns, exports, plain, refused, said
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.measurements.reduction import reduce_table
 from asphalt_nscd.table_import.campaign import read_campaign
-from asphalt_nscd.table_import.frames import campaign_of
+from asphalt_nscd.table_import.frames import campaign_of, frame_of
 
 TABLE = "Sample;T (°C);f (Hz);E (MPa);phi (°)\nA;20;10;5000;20\nB;20;10;5100;21\n"
 PEAKS = "T_C,f_Hz,F0_N,z0_m,psi_deg\n10,5,60,5e-5,20\n"
@@ -40,6 +40,18 @@ def specimens(campaign):
 
 def files(campaign):
     return [path.name for path in campaign.files]
+
+
+def test_a_campaign_as_a_frame_and_back(tmp_path):
+    campaign = exports(tmp_path, a=export("A", 4), b=export("B", 4, 1.1))
+    frame = frame_of(campaign)
+    assert frame["E_MPa"].tolist() == [8700, 7600, 9570, 8360] and frame["specimen"].tolist() == specimens(
+        campaign
+    )
+    assert frame.attrs["test_type"] == "tension-compression" and frame.attrs["source"] == str(tmp_path)
+    back = campaign_of(frame.assign(E_MPa=2 * frame["E_MPa"].astype(int)))
+    assert plain(back.table) == plain(campaign.table) | {"E_MPa": [17400, 15200, 19140, 16720]}
+    assert (back.test_type, back.notes) == (campaign.test_type, campaign.notes)
 
 
 def test_the_test_type_that_is_stated_comes_before_that_of_a_frame():
@@ -110,7 +122,7 @@ def test_one_specimen_in_several_spellings_is_one(tmp_path):
 
 
 def test_a_table_that_holds_the_tests_of_the_exports_is_passed_over(tmp_path):
-    table = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\nK1,4.0,25.0,8700.0,12.50\nK1,4.0,10.0,7600,13.25\n"
+    table = "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg\nK1,4.0,25.0,8700.4,12.50\nK1,4.0,10.0,7600,13.25\n"
     campaign = exports(tmp_path, a=export("A", 4), table=table)
     assert said(campaign, "skipped table.csv", "a.csv")
     assert specimens(campaign) == ["Mix-A"] * 2

@@ -101,6 +101,7 @@ def test_what_takes_all_memory_is_refused_before_it_is_read(tmp_path):
         (b"# only\n", "no tests"),
         (b"a,b\n", "no tests"),
         (b"a,b\n\0,1\n", "not text"),
+        (b"%PDF-1.4\na,b\n1,2\n", "not text"),
         (b'a,b\n"1,2\n', "not CSV"),
         (b"PK\x03\x04rubbish", "workbook"),
         (b"\xd0\xcf\x11\xe0rubbish", "workbook"),

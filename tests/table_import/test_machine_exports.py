@@ -301,6 +301,8 @@ def test_a_target_that_cannot_be_read_is_none(tmp_path):
         ("Mix-12", 4, "Mix-12", False),
         ("Mix-4Cores", 4, "Mix-4Cores", False),
         ("4C", 4, "4C", False),
+        ("Mix-11-20.1C", 21, "Mix-11", False),
+        ("Mix-11_270.15K", None, "Mix-11_270.15K", False),  # no machine names them so
     ],
 )
 def test_specimen_without_temperature_and_remarks(text, target, specimen, repeated):
@@ -308,6 +310,15 @@ def test_specimen_without_temperature_and_remarks(text, target, specimen, repeat
     assert (name.specimen, name.contradicts) == (specimen, False)
     if "Repeat-" not in text:
         assert name.repeated == repeated
+
+
+@pytest.mark.parametrize(
+    ("text", "target"), [("Mix-11-19.9C", 21), ("Mix-11--10C", 10), ("Mix-11-21C", -19.9), ("Mix-11-40F", 6)]
+)
+def test_a_name_contradicts_another_target(text, target):
+    """By more than 1 K, with its minus if it has one; without one it may mean either."""
+    assert specimen_of(text, target).contradicts
+    assert not specimen_of("Mix-11-21C", -21.9).contradicts
 
 
 def test_digits_in_groups_with_a_decimal_point(tmp_path):

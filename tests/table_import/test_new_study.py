@@ -62,6 +62,8 @@ def test_german_table_becomes_a_full_size_study():
     assert (study["temperatures_C"], study["frequencies_Hz"]) == ([10, 15], [1, 10])
     assert study["specimens"]["seeds"] == [1, 2, 3, 4]
     assert study["specimens"]["bonds"]["area"] == "facets"
+    assert study["test"]["time_step_s"] == 2e-4  # a five-hundredth of 10 Hz, and the coarsest
+    assert study["sensitivity"]["temperature_C"] == 15  # the middle one
     counts = read_csv(study["specimens"]["counts_table"]).columns["count"]
     assert counts == ["11798", "1588", "492", "211", "71"]
     table = read_csv("data/mine/measurements.csv")
@@ -106,7 +108,7 @@ def test_direct_tests_are_simulated_on_a_cylinder():
 
 
 def peaks():
-    tests = "15,10,60,50,20\n15,25,65,50,18\n20,10,50,50,25\n20,25,55,50,22\n"
+    tests = "15,10,60,50,20\n15,25,65,50,18\n20,10,50,50,25\n20,25,55,60,22\n"
     Path("p.csv").write_text("T_C,f_Hz,F0 (N),z0 (µm),psi (deg)\n" + tests, encoding="utf-8")
     return [Path("p.csv")]
 
@@ -116,8 +118,24 @@ def test_peaks_need_a_geometry_and_set_the_amplitude():
     refused(new_study, "mine", peaks(), StudyOptions(measured_in=DIRECT), names=["direct test"])
     geometry = {"b_mm": 25, "B_mm": 56, "e_mm": 25, "h_mm": 250, "mass_kg": 0.6, "mobile_mass_kg": 0.235}
     study = accepted(new_study("mine", peaks(), StudyOptions(geometry=geometry))[0])
-    assert study["test"]["amplitude_m"] == pytest.approx(50e-6)
+    assert study["test"]["amplitude_m"] == pytest.approx(50e-6)  # the median
+    assert study["test"]["time_step_s"] == 8e-5  # a five-hundredth of 25 Hz
     assert "E_MPa" not in read_csv("data/mine/measurements.csv").columns
+
+
+def test_replicates_become_specimens_and_readings_isotherms():
+    rows = [
+        f"A,{k},{t + 0.2 * k},{f},{9000 - 100 * t + 100 * f},20"
+        for k in (1, 2)
+        for t in (5, 15)
+        for f in (1, 10)
+    ]
+    Path("m.csv").write_text("\n".join(["specimen,replicate,T_C,f_Hz,E (MPa),phi (deg)", *rows]) + "\n")
+    study = accepted(new_study("mine", [Path("m.csv")], StudyOptions())[0])
+    table = read_csv("data/mine/measurements.csv")
+    assert table.columns["specimen"] == ["A-1"] * 4 + ["A-2"] * 4
+    assert study["temperatures_C"] == [5.3, 15.3]
+    assert table.numbers("temperature_C").tolist() == [5.3, 5.3, 15.3, 15.3] * 2
 
 
 def test_moduli_without_phases_are_no_study():

@@ -74,6 +74,19 @@ def test_one_header_for_specimens_that_the_file_names_tell_apart_is_refused(tmp_
 
 
 @pytest.mark.parametrize(
+    ("factor", "told"), [(1.45, ""), (1.55, "0.65 times"), (0.69, ""), (0.65, "1.5 times")]
+)
+def test_a_retest_is_not_1_5_times_stiffer_at_most_frequencies(tmp_path, factor, told):
+    """The median of 9100, 8000 and 5000 MPa: one that is off may be what was mended."""
+    first = EXPORT.format("A", DECEMBER_7, 10, 8000 * factor).replace("5000", "500")
+    files = {"a": first.replace("9100", f"{9100 * factor}"), "b": dated("A", DECEMBER_8)}
+    if told:
+        refused(exports, tmp_path, **files, names=["b.csv and a.csv", told])
+    else:
+        assert columns(exports(tmp_path, **files), "E_MPa") == [[9100, 8000, 5000]]
+
+
+@pytest.mark.parametrize(
     ("files", "moduli"),
     [
         ({"Mix-A-4C": dated("A", DECEMBER_7), "Mix-A-4C-Repeated_Sum": dated("A", DECEMBER_8, 7900)}, 7900),

@@ -51,6 +51,7 @@ def test_volume_of_spheres_goes_with_that_of_the_specimen(grading):
 def test_spheres_of_a_cylinder_are_twice_as_large_and_fill_as_much_of_its_box():
     cylinder = Cylinder(d=0.1, h=0.15, mass=2.8, mobile_mass=0.5)
     counts = spheres_for(cylinder).counts
+    assert (spheres_for(cylinder).smallest_mm, spheres_for(PAPER).smallest_mm) == (4.0, 2.0)
     assert counts.index.tolist() == (2.0 * PAPER_COUNTS.index).tolist()
     ratio = (0.1 * 0.1 * 0.15) / (0.056 * 0.025 * 0.25)
     assert volume(counts) == pytest.approx(ratio * volume(PAPER_COUNTS), rel=2e-3)
@@ -78,8 +79,19 @@ def test_spheres_that_do_not_fit_are_refused():
 
 
 def test_sieve_table_with_decimal_commas(tmp_path):
-    (tmp_path / "s.csv").write_text("Sieve (mm);passing (%)\n2;30,5\n6,3;60\n10;100\n")
-    assert read_grading(tmp_path / "s.csv").to_dict() == {2.0: 30.5, 6.3: 60.0, 10.0: 100.0}
+    for sieves in (
+        ("mm", "2", "6,3", "10"),
+        ("µm", "2000", "6300", "10000"),
+        ("m", "0,002", "0,0063", "0,01"),
+    ):
+        text = "Sieve ({});passing (%)\n{};30,5\n{};60\n{};100\n".format(*sieves)
+        (tmp_path / "s.csv").write_text(text, encoding="utf-8")
+        curve = read_grading(tmp_path / "s.csv")
+        assert curve.index.tolist() == pytest.approx([2.0, 6.3, 10.0]) and curve.tolist() == [
+            30.5,
+            60.0,
+            100.0,
+        ]
 
 
 @pytest.mark.parametrize(

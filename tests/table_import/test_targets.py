@@ -50,6 +50,7 @@ def test_the_readings_decide_between_name_and_header(tmp_path, file, specimen, m
     ("file", "header", "specimen", "measured", "names"),
     [
         ("Mix-7_21C_Sum.csv", "4", "Mix-7", None, ["'Mix-7_21C'", "21 degC", "header 4 degC"]),
+        ("Mix-7_18.9C_Sum.csv", "22", "Mix-7", None, ["18.9 degC", "header 22 degC"]),
         ("Mix-7_21C_Sum.csv", "4", "Mix-7", 37, ["21 degC", "header 4 degC", "37.1 degC"]),
         ("Mix-7_Sum.csv", "37", "Mix-7", 4, ["37 degC", "4.1 degC"]),
         ("Mix-7-37C_Sum.csv", "37", "Mix-7", 0, ["37 degC", "name", "0.1 degC"]),
@@ -69,7 +70,7 @@ def test_a_temperature_that_nothing_decides_is_refused(tmp_path, file, header, s
 @pytest.mark.parametrize(
     ("file", "header", "specimen", "measured", "target"),
     [
-        ("Mix-7_20C_Sum.csv", "22", "Mix-7", None, "22"),  # a name near the header gives way to it
+        ("Mix-7_19.1C_Sum.csv", "22", "Mix-7", None, "22"),  # a name near the header gives way to it
         ("Mix-7_Sum.csv", "6.0", "Mix-7", 4, "6.0"),
         ("Mix-7_Sum.csv", "2.2", "Mix-7", 4, "2.2"),
         ("Mix-7_Sum.csv", None, "Mix-7-4C", None, "4"),
@@ -98,6 +99,15 @@ def test_the_file_of_several_temperatures_may_be_called_after_one(tmp_path):
     campaign, _ = read_campaign([tmp_path / "Mix-7_4C.csv"])
     assert plain(campaign.table)["nominal_temperature_C"] == [4] * 3 + [21] * 3
     assert "says" not in " ".join(campaign.notes)
+
+
+@pytest.mark.parametrize(
+    ("name", "doubtful"), [("Mix-7-30C", True), ("Mix-7-37C", False), ("Mix-7_30C", False)]
+)
+def test_a_hyphen_before_a_temperature_may_be_a_minus_down_to_30_degrees(tmp_path, name, doubtful):
+    _, notes = read(tmp_path, "e.csv", header=None, specimen=name)
+    assert f"{name[-3:-1]} degC taken from the name" in notes
+    assert ("if -30 degC was meant" in notes) == doubtful
 
 
 def test_the_grade_of_a_binder_is_no_temperature(tmp_path):

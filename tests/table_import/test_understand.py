@@ -112,6 +112,24 @@ def test_moduli_are_taken_where_peaks_stand_beside_them():
     assert plain(read.table)["amplitude_m"] == [6e-5]
 
 
+def test_degrees_fahrenheit_to_a_hundredth():
+    assert columns("T (°F);f_Hz;E_MPa;phi_deg", "68.9;10;9000;20", "39.2;10;9000;20")["temperature_C"] == [
+        20.5,
+        4,
+    ]
+
+
+@pytest.mark.parametrize(
+    ("header", "row", "words"),
+    [
+        ("T_C;f_Hz;E_MPa;phi_deg", "15;10;20;9000", "exchange the two names"),
+        ("T_C;f_Hz;phi_deg;lag", "15;10;9000;20", "'phi_deg' are as moduli"),
+    ],
+)
+def test_a_modulus_and_a_phase_that_are_exchanged_are_refused(header, row, words):
+    refused(columns, header, row, row.replace("15", "20"), names=["t.csv", words])
+
+
 def test_units_in_a_line_of_their_own():
     read = columns("T;f;E*;phi", "°C;Hz;GPa;deg", "15;10;9;20")
     assert read["E_MPa"] == [9000]

@@ -92,7 +92,14 @@ def _step(values: NDArray[np.float64], units: Sequence[float]) -> float:
     """Coarsest decimal step, in one of the units, that divides all values: twice their rounding; 0 if none does."""
     values = values[np.isfinite(values)]
     steps = sorted((unit * 10.0**-digits for unit in units for digits in range(7)), reverse=True)
+    largest = np.abs(values).max(
+        initial=0.0
+    )  # a CV of 0.05 is no multiple of a GPa, though nearly none of it
     return next(
-        (step for step in steps if np.allclose(values / step, np.round(values / step), rtol=0, atol=1e-4)),
+        (
+            step
+            for step in steps
+            if step <= largest and np.allclose(values / step, np.round(values / step), rtol=0, atol=1e-4)
+        ),
         0.0,
     )

@@ -1,0 +1,145 @@
+"""The small parts of an import, by value: what each makes of a few cells or numbers."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+from table_import.slips import refused
+
+from asphalt_nscd.files.csvinput import Table
+from asphalt_nscd.files.errors import InputError
+from asphalt_nscd.table_import.computed import computed_specimens
+from asphalt_nscd.table_import.duration import duration
+from asphalt_nscd.table_import.grid import grid
+from asphalt_nscd.table_import.header_lines import told_above
+from asphalt_nscd.table_import.skipped_files import SkippedFile, common_mend, listed
+from asphalt_nscd.table_import.skipped_files import refused as refused_file
+from asphalt_nscd.table_import.storage_loss import whole_modulus
+
+
+@pytest.mark.parametrize(
+    ("cells", "told"),
+    [
+        (["T = 4 °C"], {"T (°C)": "4"}),
+        (["Temperature (°F):", "39.2"], {"T (°F)": "39.2"}),
+        (["Temperature", "39.2"], {"Temperature": "39.2"}),
+        (["Freq. (Hz) = 5"], {"f (Hz)": "5"}),
+        (["Specimen: A 3"], {"specimen": "A 3"}),
+        (["", "Temp.", "20 °C", "Frequency", "5 Hz"], {"T (°C)": "20", "f (Hz)": "5"}),
+        (["Mix", "AC 16", "Temp.", "cold"], {"mix": "AC 16"}),
+        (["Operator", "me"], {}),
+        (["T = 4 °C and more"], {}),
+    ],
+)
+def test_what_a_line_above_a_table_says_of_all_its_tests(cells, told):
+    assert told_above([(1, cells)]) == (told, {0} if told else set())
+    # of two lines the first
+    both = told_above([(1, cells), (2, ["x"]), (3, ["T = 21 °C"])])
+    assert both == ({"T (°C)": "21"} | told, {0, 2} if told else {2})
+
+
+CONDITIONS = [(t, f) for t in (5, 20) for f in (1.0, 10.0)]
+MODULI = np.array([[9001.0, 9313, 9957], [12016, 12002, 13271], [3003, 3332, 3058], [4407, 4493, 4991]])
+
+
+def table(conditions, **moduli):
+    rows = [(name, t, f, e) for name, own in moduli.items() for (t, f), e in zip(conditions, own)]
+    names = ("specimen", "temperature_C", "frequency_Hz", "E_MPa")
+    columns = {name: list(map(str, column)) for name, column in zip(names, zip(*rows))}
+    return Table(Path("t.csv"), columns, [*range(2, len(rows) + 2)])
+
+
+@pytest.mark.parametrize(
+    "statistic",
+    [
+        lambda x: x.mean(axis=1).round(),
+        lambda x: np.median(x, axis=1).round(),
+        lambda x: x.std(axis=1).round(1),
+        lambda x: x.std(axis=1, ddof=1).round(1),
+        lambda x: (x.std(axis=1, ddof=1) / x.mean(axis=1)).round(3),
+        lambda x: (100.0 * x.std(axis=1) / x.mean(axis=1)).round(1),
+    ],
+)
+def test_a_specimen_computed_of_those_before_or_behind_it(statistic):
+    own, (a, b, c) = statistic(MODULI), MODULI.T
+    assert computed_specimens(table(CONDITIONS, a=a, b=b, c=c, x=own)) == ["x"]
+    assert computed_specimens(table(CONDITIONS, x=own, a=a, b=b, c=c)) == ["x"]
+    assert computed_specimens(table(CONDITIONS, a=a, x=own, b=b, c=c)) == []
+    # half of a per cent off in one test, or three tests alone: it may have been measured
+    off = own * [1.0, 1.0, 1.05, 1.0]
+    assert computed_specimens(table(CONDITIONS, a=a, b=b, c=c, x=off)) == []
+    assert computed_specimens(table(CONDITIONS[:3], a=a, b=b, c=c, x=own)) == []
+
+
+def test_specimens_that_differ_by_their_rounding_have_no_mean():
+    (a,) = MODULI.T[:1]
+    assert computed_specimens(table(CONDITIONS, a=a, b=a + 10, c=a + [10, 0, 10, 0])) == []
+
+
+@pytest.mark.parametrize(
+    ("study", "told"),
+    [
+        # 974 s of pouring and 20 times 4 samples of 71 500 steps of 4 us and five starts of 1.7 s; 240 s apart
+        ((14160, 4, 6, [3, 6, 10, 25, 40], 5e-5), "about 16 minutes"),
+        ((14160, 4, 6, [0.001, 40], 5e-5), "about 4.7 hours"),
+        ((14160, 1, 1, [10], 1e-3), "about 4 minutes"),
+        ((0, 1, 20, [10] * 100, 1e-3), "about 70 minutes"),
+        ((0, 1, 30, [10] * 100, 1e-3), "about 1.6 hours"),
+    ],
+)
+def test_how_long_a_study_takes_on_two_cores(study, told):
+    assert duration(*study) == told
+
+
+def frame(tests):
+    rows = [(t, f) for t, frequencies in tests.items() for f in frequencies]
+    return pd.DataFrame(rows, columns=["temperature_C", "frequency_Hz"])
+
+
+@pytest.mark.parametrize(
+    ("tests", "temperatures", "frequencies"),
+    [
+        ({5: [1, 2, 4, 8, 16, 32], 10: [3, 6, 9], 20: [3, 6, 9], 30: [3, 6, 9]}, [10, 20, 30], [3, 6, 9]),
+        ({5: [1, 2, 3], 10: [1, 2, 5], 20: [1, 2, 7]}, [5, 10, 20], [1, 2]),  # those that all have
+        ({5.0: [10, 10.3], 5.5: [10, 10.3]}, [5.0, 5.5], [10, 10.3]),  # as near as they may be
+    ],
+)
+def test_the_largest_full_grid(tests, temperatures, frequencies):
+    given = frame(tests)
+    found = grid(given, Path("t.csv"))
+    assert found[:2] == (temperatures, frequencies)
+    outside = len(given) - len(temperatures) * len(frequencies)
+    assert [note.partition(" are")[0] for note in found[2]] == [f"{outside} of {len(given)} tests"] * bool(
+        outside
+    )
+
+
+@pytest.mark.parametrize(
+    ("tests", "names"),
+    [({5.0: [1, 2], 5.4: [1, 2]}, ["temperatures 5 and 5.4 degC"]), ({5: [1, 10, 10.1]}, ["10 and 10.1 Hz"])],
+)
+def test_two_readings_of_one_set_value_are_no_grid(tests, names):
+    refused(grid, frame(tests), Path("t.csv"), names=["t.csv", *names])
+
+
+def test_a_loss_modulus_at_phase_zero_says_nothing():
+    size, phase = whole_modulus({"E2_MPa": np.array([5.0, 5.0]), "phase_deg": np.array([0.0, 30.0])})
+    assert (
+        np.isnan(size[0]) and size[1] == pytest.approx(10.0) and phase.tolist() == pytest.approx([0.0, 30.0])
+    )
+
+
+def test_files_passed_over_are_told_by_reason():
+    empty = [SkippedFile(f"{n}.csv", "the file is empty", "export it anew.") for n in range(5)]
+    assert listed(empty[:3]) == "0.csv, 1.csv, 2.csv (the file is empty)"
+    other = refused_file(
+        "d.csv", InputError("d.csv, line 2: no column for phase (found: a); name it."), Path("d.csv")
+    )
+    assert other == SkippedFile("d.csv", "line 2: no column for phase", "name it.")
+    assert listed([*empty[:4], other, empty[4]]) == (
+        "0.csv, 1.csv, 2.csv and 2 more (the file is empty); d.csv (line 2: no column for phase)"
+    )
+    assert (common_mend(empty), common_mend([*empty, other])) == ("export it anew.", "")
