@@ -88,6 +88,53 @@ def test_what_the_tests_halve_is_theirs_and_what_they_leave_is_the_priors():
     )
 
 
+@pytest.mark.parametrize(
+    ("tested", "reference", "least"),
+    [((20.0, 40.0), 25.0, 15.0), ((-10.0, 30.0), 20.0, 35.0), ((0.0, 30.0), -20.0, 5.0)],
+)
+def test_coordinates_written_out(tested, reference, least):
+    """The least c2 is 5 K more than the coldest test, or 15 degC, is below the reference."""
+    at = Coordinates(
+        "2s2p1d", "wlf", np.array([1.0, 100.0]), np.array(tested), 2e10, reference, 2e10 * np.exp(4.0)
+    )
+    x = np.array([-5.0, 0.4, -0.5, 0.5, 0.7, 2.0, 5.0, -2.0, 0.25])
+    h = 1.0 / (1.0 + np.exp(-0.5))
+    c2 = least / 0.25
+    expected = {
+        "static_modulus": 2e10 * np.exp(-5.0), "glassy_modulus": 2e10 * np.exp(0.4), "k": h / (1.0 + np.exp(0.5)),
+        "h": h, "delta": np.exp(0.7), "tau": np.exp(2.0) / 10.0, "beta": np.exp(5.0), "c1": np.exp(-2.0) * c2, "c2": c2,
+    }  # fmt: skip
+    law = at.build(x)
+    assert (
+        parameters(law) == pytest.approx(expected, rel=1e-12) and law.shift.reference_temperature == reference
+    )
+    assert at.high[1] == pytest.approx(4.0) and at.inside(x).all()
+    near = at.low + [0.009, 0.011, *[1.0] * 6, 0.2]
+    assert at.inside(near).tolist() == [False, *[True] * 8]
+    assert at.inside(at.high - (near - at.low)).tolist() == [False, *[True] * 8]
+
+
+@pytest.mark.parametrize("shift", ["wlf", "arrhenius"])
+def test_usual_starts_are_medians_with_three_slopes_at_any_tau(shift):
+    at = Coordinates("2s2p1d", shift, np.array([1.0, 100.0]), np.array([0.0, 30.0]), 2e10, 25.0)
+    groups = list(at.usual_starts())
+    assert len(groups) == 9 and all(
+        np.ptp(np.delete(group, 5, axis=1), axis=0).max() == 0.0 for group in groups
+    )
+    found = []
+    for group in groups:
+        assert group[:, 5].tolist() == list(range(-12, 13))
+        law = parameters(at.build(group[12]))
+        assert [law[name] for name in ("k", "h", "delta", "beta")] == pytest.approx([0.2, 0.6, 2.2, 120.0])
+        if shift == "wlf":  # c2 is 130 K at 15 degC
+            assert law["c2"] == pytest.approx(140.0)
+            found.append((law["glassy_modulus"] / 2e10, law["c1"] / law["c2"]))
+        else:  # 200 kJ/mol go with 0.14 decades/K
+            found.append((law["glassy_modulus"] / 2e10, 0.14 * law["activation_energy"] / 200e3))
+    expected = [(guess, slope) for guess in (1.2, 2.0, 31.0 / 20.0) for slope in (0.08, 0.14, 0.2)]
+    assert np.array(found) == pytest.approx(np.array(expected))
+
+
 @pytest.mark.parametrize("shift", ["wlf", "arrhenius"])
 @pytest.mark.parametrize("law", ["2s2p1d", "huet-sayegh"])
 def test_slopes_of_the_coordinates_are_those_of_finite_differences(law, shift):

@@ -1,5 +1,6 @@
 """Reconstructed measurements: the law behind them, and scatter that is nothing but scatter."""
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from asphalt_nscd.measurements.reduction import reduce_table
 from asphalt_nscd.rheology.published_laws import read_published
 from asphalt_nscd.rheology.reconstruct import fit_published, reconstruct_table
 from asphalt_nscd.rheology.sampling import Sampling
+from asphalt_nscd.rheology.spectrum_io import read_spectrum
 
 PAPER = Path(__file__).parents[2] / "data" / "paper"
 TABLE3, GEOMETRY = PAPER / "table3_burgers.csv", PAPER / "geometry.csv"
@@ -74,12 +76,19 @@ def test_prediction_of_table_4(smooth):
 
 def test_without_scatter_the_table_reduces_to_the_smooth_law(smooth, tmp_path):
     scatter = {"specimen_scatter": 0, "modulus_scatter": 0, "phase_scatter_deg": 0}
-    frame, reduced = draw(tmp_path, seed=1, specimens=2, **scatter)
+    frame, reduced = draw(tmp_path, law_output=tmp_path / "law.json", seed=1, specimens=2, **scatter)
     assert len(frame) == 2 * 30 and set(reduced["origin"]) == {"reconstructed"}
     assert set(frame["z0_m"]) == {63e-6}
     modulus = smooth.complex_modulus(2 * np.pi * reduced["frequency_Hz"].to_numpy(), reduced["temperature_C"])
     np.testing.assert_allclose(reduced["E_MPa"] * 1e6, np.abs(modulus), rtol=1e-8)
     np.testing.assert_allclose(reduced["phase_deg"], np.degrees(np.angle(modulus)), rtol=1e-7)
+    assert read_spectrum(tmp_path / "law.json") == smooth
+    content, burgers = json.loads((tmp_path / "law.json").read_text()), read_published(TABLE3)
+    missed = [
+        np.log(law.complex_modulus(OMEGA) / smooth.complex_modulus(OMEGA, t)) for t, law in zip(*burgers)
+    ]
+    assert content["rms_log_residual"] == pytest.approx(np.sqrt(np.mean(np.abs(missed) ** 2)), rel=1e-9)
+    assert content["source"] == "reconstructed" and set(content["std_error"]) >= {"E_glassy_Pa", "wlf_C1"}
 
 
 def test_scatter_is_centred_and_as_large_as_stated(smooth, tmp_path):

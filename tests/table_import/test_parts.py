@@ -46,7 +46,7 @@ MODULI = np.array([[9001.0, 9313, 9957], [12016, 12002, 13271], [3003, 3332, 305
 
 
 def table(conditions, **moduli):
-    rows = [(name, t, f, e) for name, own in moduli.items() for (t, f), e in zip(conditions, own)]
+    rows = [(name, t, f, e) for name, own in moduli.items() for (t, f), e in zip(conditions, own) if e == e]
     names = ("specimen", "temperature_C", "frequency_Hz", "E_MPa")
     columns = {name: list(map(str, column)) for name, column in zip(names, zip(*rows))}
     return Table(Path("t.csv"), columns, [*range(2, len(rows) + 2)])
@@ -72,6 +72,13 @@ def test_a_specimen_computed_of_those_before_or_behind_it(statistic):
     off = own * [1.0, 1.0, 1.05, 1.0]
     assert computed_specimens(table(CONDITIONS, a=a, b=b, c=c, x=off)) == []
     assert computed_specimens(table(CONDITIONS[:3], a=a, b=b, c=c, x=own)) == []
+
+
+def test_a_mean_is_of_the_specimens_that_were_tested():
+    """Where b was not, the spreadsheet took it over the others, and nothing is told by that."""
+    conditions, (a, b, c) = [*CONDITIONS, (30, 1.0)], np.vstack([MODULI, [1001, np.nan, 1405]]).T
+    mean = np.nanmean([a, b, c], axis=0).round()
+    assert computed_specimens(table(conditions, a=a, b=b, c=c, x=mean)) == ["x"]
 
 
 def test_specimens_that_differ_by_their_rounding_have_no_mean():

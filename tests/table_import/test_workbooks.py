@@ -13,6 +13,7 @@ from layouts.files import save_ods
 from layouts.laboratory import Laboratory
 from table_import.slips import plain, read, refused, said, workbook
 
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.campaign import read_campaign
 from asphalt_nscd.table_import.decimals import Number
 
@@ -164,6 +165,17 @@ def test_the_mend_names_the_column_and_its_unit(tmp_path):
     ):
         campaign = read(tmp_path, rows, "t.xlsx", **names)
         assert {key: e for key, (e, _) in held(campaign).items()} == {key: e for key, (e, _) in TESTS.items()}
+
+
+def test_four_names_are_offered_for_one_quantity(tmp_path):
+    names = [f"Wert{letter} (GPa)" for letter in "abcde"]
+    rows = [
+        ["specimen", *KEYS, *names, "phase (°)"],
+        *([*key, *[e / 1e3] * 5, p] for key, (e, p) in TESTS.items()),
+    ]
+    with pytest.raises(InputError, match='"Wertd", or write') as caught:
+        read(tmp_path, rows, "t.xlsx")
+    assert "Werte" not in str(caught.value)
 
 
 def test_a_word_is_said_wherever_it_stands_but_not_in_another_unit(tmp_path):
