@@ -173,6 +173,23 @@ def test_a_prior_pulls_an_undetermined_glassy_modulus_into_the_usual_range():
     assert all(20e9 < value < 50e9 for value in found)
 
 
+@pytest.mark.parametrize(("weights", "guess", "worth"), [(None, 0.01, 2.0), ((1e-3, 1e-3), 0.0, 0.0)])
+def test_the_scatter_beside_a_prior_is_that_of_the_residuals(weights, guess, worth):
+    """Freedom is 2 n less the trace of d(law)/d(tests); a guess of 1 % counts as two residuals, weights as none."""
+    omega, temperature = np.tile(FREQUENCIES[:3], 3), np.repeat([0.0, 10.0, 20.0], 3)
+    modulus = scattered(SPECTRUM, omega, temperature, size=0.03)
+    fit = fit_spectrum(omega, temperature, modulus, 15.0, prior=ASPHALT_CONCRETE, weights=weights)
+    slopes = fit.law.log_slopes(omega, temperature)
+    freedom = 2 * omega.size - np.trace(np.vstack([slopes.real, slopes.imag]) @ fit.response)
+    assert 18 - 9 < fit.freedom == round(freedom)
+    squares = omega.size * fit.rms_log_residual**2
+    variance = (squares + worth * guess**2) / (freedom + worth)
+    of_tests = variance * fit.response @ fit.response.T
+    assert fit.covariance - fit.of_prior == pytest.approx(of_tests, rel=1e-3, abs=1e-9)
+    size = np.sqrt(np.diag(fit.covariance))
+    assert list(fit.std_error.values()) == pytest.approx(size * list(parameters(fit.law).values()))
+
+
 def test_posterior_errors_cover_the_truth():
     """Truth drawn from the prior, tests that leave half of it open: errors in posterior deviations are of unit size."""
     random = np.random.default_rng(8)
