@@ -10,7 +10,7 @@ from asphalt_nscd.rheology import maxwell_fitting
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.rheology.chain import KelvinChain
 from asphalt_nscd.rheology.maxwell import MaxwellSeries, series_of
-from asphalt_nscd.rheology.maxwell_fitting import REACH, Miss, _merged, _size, _spaced, fit_series, miss
+from asphalt_nscd.rheology.maxwell_fitting import REACH, Miss, _size, _spaced, fit_series, miss
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.shift import WLF
 
@@ -85,11 +85,6 @@ def test_a_series_is_found_again():
     assert len(series.moduli) == 3
     np.testing.assert_allclose(series.times, known.times, rtol=1e-4)
     np.testing.assert_allclose(series.moduli, known.moduli, rtol=1e-4)
-
-
-def test_merged_neighbours_stand_at_the_mean_of_their_log_times_weighed_by_moduli():
-    merged = _merged(MaxwellSeries(1e8, (3e9, 1e9, 5e9), (1.0, 16.0, 1e3)), 2)
-    assert merged.moduli == (4e9, 5e9) and merged.times == pytest.approx((2.0, 1e3))
 
 
 def test_a_series_is_as_far_off_as_the_worse_of_its_two_errors():

@@ -47,9 +47,8 @@ def fit_series(
     """The series of the fewest branches found that stays within the allowed errors over a band [rad/s], and its errors.
 
     `modulus` gives E* [Pa] at (n,) rad/s. Relaxation times start evenly spaced on a logarithmic scale, with positive
-    moduli (so the series is passive) from non-negative least squares. Then branches are taken away, from even spacing
-    and by merging two neighbours, while times and moduli, refined together, still meet the error. Outside the band the
-    series is whatever follows from within.
+    moduli (so the series is passive) from non-negative least squares. Then branches are taken away while times and
+    moduli, refined together, still meet the error. Outside the band the series is whatever follows from within.
     """
     if not 0.0 < lowest_omega <= highest_omega < np.inf:
         raise InputError(
@@ -77,30 +76,14 @@ def fit_series(
             f"{best.percent:.2g} % and {best.degrees:.2g} deg; allow a larger error."
         )
     terms = len(found[0].moduli)
-    while terms:
-        for start in (starts[terms], _merged(found[0], terms)):
-            series = _refined(start, omega, target, allowed)
-            error = _miss_of(series, tested, dense)
-            if error.is_within(allowed):
-                found = series, error
-                break
-        else:
-            return found
-        terms = len(found[0].moduli) - 1
+    while terms > 0:
+        series = _refined(starts[terms], omega, target, allowed)
+        error = _miss_of(series, tested, dense)
+        if not error.is_within(allowed):
+            break
+        found = series, error
+        terms = len(series.moduli) - 1
     return found
-
-
-def _merged(series: MaxwellSeries, terms: int) -> MaxwellSeries:
-    """The series with the neighbours nearest in log time merged, until so many terms are left."""
-    moduli, times = list(series.moduli), list(series.times)
-    while len(moduli) > terms:
-        first = int(np.argmin(np.diff(np.log(times))))
-        share = moduli[first] / (moduli[first] + moduli[first + 1])
-        # the weighted mean of ln times leaves the relaxed modulus and, to first order, the spectrum as they
-        # are
-        times[first : first + 2] = [times[first] ** share * times[first + 1] ** (1.0 - share)]
-        moduli[first : first + 2] = [moduli[first] + moduli[first + 1]]
-    return MaxwellSeries(series.long_term, tuple(moduli), tuple(times))
 
 
 def _spaced(
