@@ -62,13 +62,6 @@ def test_relaxation_gives_the_complex_modulus():
     assert modulus == pytest.approx(LAW.complex_modulus(omega), rel=1e-8)
 
 
-def test_limits():
-    assert LAW.creep_compliance(0.0) == pytest.approx(1 / LAW.modulus_m, rel=1e-14)
-    assert LAW.relaxation_modulus(0.0) == pytest.approx(LAW.modulus_m, rel=1e-12)
-    assert LAW.complex_modulus(1e9) == pytest.approx(LAW.modulus_m, rel=1e-6)
-    assert LAW.complex_modulus(1e-9) == pytest.approx(1e-9j * LAW.viscosity_m, rel=1e-6)
-
-
 @pytest.mark.parametrize("value", [0.0, -1.0, np.nan])
 def test_impossible_parameters_are_refused(value):
     with pytest.raises(InputError, match="viscosity_k"):

@@ -109,6 +109,7 @@ def test_summary_export_is_read_as_it_is(tmp_path):
         ("Complex modulus", "unknown"),
         ("Essai de module complexe NF EN 12697-26, 2PB-TR", "bending"),
         ("Flexion deux points", "bending"),
+        ("2PB-TR beside AASHTO T 378", "unknown"),
         ("NF EN 12697-26 annexe A", "bending"),
         ("EN 12697-26:2018, Anhang D", "tension-compression"),
         ("EN 12697-26 Annex B (4PB-PR)", "four-point bending"),

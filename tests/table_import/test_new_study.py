@@ -17,7 +17,6 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.burgers import Burgers
 from asphalt_nscd.study.configuration import complete_study
 from asphalt_nscd.study.preflight import require_feasible
-from asphalt_nscd.table_import.duration import duration
 from asphalt_nscd.table_import.write import StudyOptions, new_study
 
 LAW = Burgers(24.3e9, 3.71e9, 48.4e9, 0.773e9)
@@ -156,7 +155,6 @@ def test_tests_outside_the_full_grid_are_left_out_and_said():
 @pytest.mark.parametrize(
     ("tests", "names"),
     [
-        (rows(temperatures=[15, 15.1]), ["15 and 15.1 degC"]),
         (rows(frequencies=[10, 10.1]), ["10 and 10.1 Hz"]),
         (rows(frequencies=[10]), ["10 degC"]),
         ([(1, 15, 1, 9000.0, 0.3), (1, 15, 10, 9500.0, 0.3)], ["MPa"]),
@@ -211,8 +209,3 @@ def test_file_names_cannot_write_into_the_configuration():
     evil = Path("a\nstudy: evil #.csv")
     german(rows())[0].rename(evil)
     assert accepted(new_study("mine", [evil], StudyOptions())[0])["study"] == "mine"
-
-
-def test_duration_grows_with_slow_tests_and_is_the_paper_studys_for_the_paper():
-    assert duration(14160, 4, 6, [3, 6, 10, 25, 40], 5e-5) in {f"about {n} minutes" for n in range(12, 31)}
-    assert duration(14160, 4, 6, [0.001, 40], 5e-5).endswith("hours")
