@@ -98,6 +98,7 @@ def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     assert not said(campaign, "hidden")
     for name in ("empty.csv", "sieves.csv", "b.csv.bak"):
         assert name in " ".join(campaign.without_tests)
+    assert campaign.without_tests[0].startswith("5 of 6 files gave no test: ")
 
 
 @pytest.mark.parametrize(

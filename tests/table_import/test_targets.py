@@ -17,7 +17,7 @@ Test results summary
  Dynamic modulus (MPa),9100,8000,5000
  Phase angle (Degrees),12.5,13.25,19
 {readings}"""
-READINGS = " Average temperature (°C),{0}.1,{0}.0,{0}.1\n"
+READINGS = " Average temperature (°C),{0}.1,{0}.0,{0}.3\n"  # in the middle, {0}.1
 
 
 def saved(folder, file, header, specimen, measured):
@@ -89,7 +89,7 @@ def test_the_temperature_that_is_taken(tmp_path, file, header, specimen, measure
 
 def test_readings_stand_where_only_a_name_contradicts_them(tmp_path):
     target, notes = read(tmp_path, "Mix-7-21C.csv", header=None, measured=4)
-    assert target == [4.1, 4.0, 4.1]
+    assert target == [4.1, 4.0, 4.3]
     assert "'Mix-7-21C' says 21 degC; 4.1 degC was measured" in notes
 
 
