@@ -126,6 +126,8 @@ def test_names_of_one_series(first, second, other):
         ("8. März 2021", "7 févr. 2021", False),
         ("1/2/2020", "2/1/2020", None),  # the day first, or the month
         ("3/2/20", "4/5/2020", True),  # either way
+        ("2019-02-05", "2019-03-04", True),  # behind a year the month
+        ("05.02.2019", "04.03.2019", True),  # between points the day first
         ("Dec 7, 2019", "2019-12-07 10:00", None),
         ("in May", "2019-12-07", None),
         ("2019-13-45", "2019-12-07", None),

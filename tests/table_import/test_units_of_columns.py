@@ -67,6 +67,9 @@ def test_a_unit_that_is_not_said_is_taken_only_if_the_numbers_leave_one(tmp_path
         assert said(campaign, f"'{name}'", f"{unit} taken")
     warm = [[s, 40 + t, f, e, p] for s, t, f, e, p in rows]
     refused(read, tmp_path, [names, *warm], names=["'Temperatur'"])
+    refused(
+        read, tmp_path, [names, *(row for row in rows if row[1] < 40)], names=["'Temperatur'"]
+    )  # two alone
     small = [[*row[:4], 0.3] for row in rows]
     refused(read, tmp_path, [names, *small], names=["'Phasenwinkel'"])
 
