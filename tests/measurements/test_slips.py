@@ -153,6 +153,10 @@ def changed(rows, column, factor):
         ),
         (campaign().assign(frequency_Hz=lambda t: 2.0 * np.pi * t["frequency_Hz"]), "look like rad/s"),
         (
+            campaign().assign(frequency_Hz=np.tile([0.6283, 2.9, 7.1, 31.0, 55.0, 628.3], 12)),
+            "0.6283, 2.9, 7.1, 31, 55 and 628.3 are 2 pi times 0.1, 0.4615, 1.13, 4.934, 8.754 and 100:",
+        ),
+        (
             campaign().assign(temperature_C=lambda t: 32.0 + 1.8 * t["temperature_C"]),
             "14, 39.2, 69.8 and 98.6 are",
         ),
