@@ -21,6 +21,13 @@ def modulus(law: Burgers, frequency: float) -> tuple[float, float]:
     return abs(value) / 1e6, float(np.degrees(np.angle(value)))
 
 
+def band_of(axes, number: int = 0) -> np.ndarray:
+    """x, lower and upper edge (3, n) of a band that `fill_between` made."""
+    x, y = axes.collections[number].get_paths()[0].vertices.T
+    at = np.unique(x)
+    return np.array([at, [y[x == one].min() for one in at], [y[x == one].max() for one in at]])
+
+
 class Results:
     """Writes result files into a folder; each method returns the paths as a figure is given them."""
 

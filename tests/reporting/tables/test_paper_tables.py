@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -91,3 +92,35 @@ def test_what_was_left_out_does_not_come_back_through_the_start():
     cold = temperature == 0.0
     one, other = (law.modulus(x, omega[cold], temperature[cold]) for x in predicted)
     np.testing.assert_allclose(np.abs(one), np.abs(other), rtol=0.02)
+
+
+def test_errors_of_what_a_law_was_fitted_to_and_has_not_seen(monkeypatch):
+    """A stand-in whose coordinates are factors on |E*| and phase; of the tests left out at a value v they say v."""
+    temperature, frequency = (a.ravel() for a in np.meshgrid([0.0, 1.0, 2.0, 5.0], [1.0, 2.0, 4.0]))
+    omega = 2.0 * np.pi * frequency
+    modulus = 1e9 * np.exp(0.5j * np.where(temperature == 2.0, -1.0, 1.0))
+    law = SimpleNamespace(
+        fit=lambda *tests: (1.01, 0.9),
+        modulus=lambda x, w, t: x[0] * 1e9 * np.exp(0.5j * x[1] * np.where(t == 2.0, -1.0, 1.0)),
+    )
+    monkeypatch.setattr(
+        rivals,
+        "left_out",
+        lambda rival, w, t, e, groups, start: [
+            (v, (1.0 + 0.01 * v / (1.0 if groups is t else 2.0 * np.pi), 1.0 - 0.1 * (v == 1.0)))
+            for v in np.unique(groups)
+        ],
+    )
+    found = dict(rivals.errors_of(law, omega, temperature, modulus))
+    assert found == pytest.approx(
+        {
+            ("fitted", "E"): 1.0, ("fitted", "phase"): 10.0,
+            ("inner_temperatures", "E"): 1.5, ("inner_temperatures", "phase"): 5.0,
+            ("end_temperatures", "E"): 2.5, ("end_temperatures", "phase"): 0.0,
+            ("inner_frequencies", "E"): 2.0, ("inner_frequencies", "phase"): 0.0,
+            ("end_frequencies", "E"): 2.5, ("end_frequencies", "phase"): 0.0,
+        }
+    )  # fmt: skip
+    few = temperature < 5.0  # of three temperatures none can be left out
+    found = dict(rivals.errors_of(law, omega[few], temperature[few], modulus[few]))
+    assert not any("temperatures" in kind for kind, _ in found) and ("end_frequencies", "E") in found

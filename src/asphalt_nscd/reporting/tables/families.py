@@ -54,7 +54,7 @@ def make(measured: list[Path], diagnosis: list[Path], ladder: Sequence[Path] = (
                 np.nan if last is None else last.loc[last["rung"] == last["rung"].iloc[-1], error].mean()
             )
             scatter = content["scatter"]["modulus_percent" if quantity == "E" else "phase_deg"]
-            of_one = 1.0 if quantity == "E" else 100.0 * float((1.0 / data["phase_deg"]).mean())
+            of_one = 1.0 if quantity == "E" else 100.0 * float((1.0 / data["phase_deg"]).abs().mean())
             row[f"scatter_{quantity}_percent"] = scatter * of_one
         rows.append(row)
     return pd.DataFrame(rows)

@@ -57,7 +57,7 @@ def errors_of(
         law, true = rival.modulus(x, omega[tests], temperature[tests]), modulus[tests]
         return {
             "E": np.abs(np.abs(law) / np.abs(true) - 1.0),
-            "phase": np.abs(np.angle(law) - np.angle(true)) / np.angle(true),
+            "phase": np.abs(np.angle(law) - np.angle(true)) / np.abs(np.angle(true)),
         }
 
     everywhere = np.ones(omega.size, bool)
