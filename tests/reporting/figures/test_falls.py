@@ -39,7 +39,9 @@ def test_pieces_at_four_instants_and_shares_of_the_energy(tmp_path, monkeypatch)
         np.testing.assert_allclose(position, start + moved[k])
         np.testing.assert_allclose(colour, colours[arrays["frames/fragment"][k] % 3])
         assert size is not None and panel.get_title(loc="left").endswith(f"{10 * k} ms")
-        assert panel.get_xlim() == pytest.approx((-2.0, 18.0)) and panel.get_ylim() == pytest.approx((-2.0, 23.0))
+        assert panel.get_xlim() == pytest.approx((-2.0, 18.0)) and panel.get_ylim() == pytest.approx(
+            (-2.0, 23.0)
+        )
     account = figure.axes[4]
     for line, name in zip(account.lines, ("kinetic", "impact", "friction", "numerical"), strict=True):
         assert line.get_label() == name

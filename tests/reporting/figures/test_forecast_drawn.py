@@ -89,7 +89,9 @@ def test_grading_volumes_and_what_each_part_amplifies():
     np.testing.assert_allclose(
         grading.lines[0].get_data(), [[0.063, 2, 4, 6, 10], [8.77, 41.238, 56.062, 72.324, 100]]
     )
-    bars = {label.get_text(): bar.get_width() for label, bar in zip(volumes.get_yticklabels(), volumes.patches)}
+    bars = {
+        label.get_text(): bar.get_width() for label, bar in zip(volumes.get_yticklabels(), volumes.patches)
+    }
     assert bars == pytest.approx({name: 100 * share for name, share in composition(made.recipe).items()})
     lines = {line.get_label(): line.get_data() for line in over.lines}
     assert list(lines) == list(PARTS)
@@ -116,7 +118,15 @@ def test_the_strongest_input_stands_on_top_and_the_model_below():
 
 def test_each_mix_has_a_column_with_measured_points_and_lines_of_forecasts(tmp_path):
     rows = [
-        (mix, name, omega, 100.0 * n * omega, 10.0 * n + omega, 7.0 * omega, 60.0 - omega + 10 * (mix == "M2"))
+        (
+            mix,
+            name,
+            omega,
+            100.0 * n * omega,
+            10.0 * n + omega,
+            7.0 * omega,
+            60.0 - omega + 10 * (mix == "M2"),
+        )
         for mix in ("M1", "M2")
         for n, name in enumerate(fig_forecast.SHOWN, 1)
         for omega in (1.0, 2.0)

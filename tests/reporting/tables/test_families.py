@@ -46,7 +46,10 @@ def test_a_row_of_each_table_by_hand(tmp_path, monkeypatch):
     }
     monkeypatch.setattr(families, "_fitted", lambda frame: fits)
     each = {
-        t: {"mre_E_percent": {"after": e, "before": 9.0}, "mre_phase_percent": {"after": 10 * e, "before": 9.0}}
+        t: {
+            "mre_E_percent": {"after": e, "before": 9.0},
+            "mre_phase_percent": {"after": 10 * e, "before": 9.0},
+        }
         for t, e in {"-10": 8.0, "0": 1.0, "10": 3.0, "20": 9.0}.items()
     }
     gain = {"held_out": {"leave_one_isotherm_out": {"averages_by_temperature": each}}}
