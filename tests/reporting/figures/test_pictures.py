@@ -7,8 +7,10 @@ import json
 import numpy as np
 import pytest
 from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.patches import Polygon
 
 from asphalt_nscd.files.store import load, save
+from asphalt_nscd.measurements.geometry import read_shape
 from asphalt_nscd.reporting.figures import fig01, fig05, style
 from asphalt_nscd.reporting.figures.section import draw_section
 from asphalt_nscd.reporting.figures.spheres import View, picture
@@ -55,7 +57,33 @@ def test_nearer_sphere_hides_the_farther_one(order):
 
 
 def test_stages_and_sizes(results):
+    poured, cut = load(results.deposit()[0], "deposit"), load(results.specimen()[0], "specimen")
     figure = fig05.draw(deposit=results.deposit(), specimen=results.specimen())
+    scenes = [axes for axes in figure.axes if axes.images]
+    stages = [poured.arrays[name] for name in ("initial_position", "poured_position", "position")]
+    stages = [(position, poured.arrays["radius"]) for position in stages]
+    scales = []  # mm on paper for one of the view's plane
+    for axes, (position, radius) in zip(scenes, [*stages, (cut.arrays["position"], cut.arrays["radius"])]):
+        seen = fig05.VIEW.project(position)[:, :2]
+        span = (seen + radius[:, None]).max(axis=0) - (seen - radius[:, None]).min(axis=0)
+        extent = np.array(axes.images[0].get_extent())
+        assert extent[[1, 3]] - extent[[0, 2]] == pytest.approx(span, rel=0.08)
+        box = axes.get_position()
+        paper = np.array([box.width * style.WIDE, box.height * fig05.HEIGHT]) / (
+            extent[[1, 3]] - extent[[0, 2]]
+        )
+        assert paper[0] == pytest.approx(paper[1])
+        scales.append(paper[0])
+    assert scales[1:] == pytest.approx(3 * [scales[1]])
+    edges = [np.linalg.norm(np.diff(line.get_xydata(), axis=0)) for line in scenes[0].lines]
+    seen = np.linalg.norm(fig05.VIEW.project(np.diag(poured.arrays["box"]))[:, :2], axis=1)
+    assert sorted(edges) == pytest.approx(sorted(np.repeat(seen, 4)))
+    legend = figure.axes[-1]
+    # one millimetre of the legend's axes is one on paper
+    assert [circle.get_radius() for circle in legend.patches] == pytest.approx(
+        [2.5e-3 * scales[1], 1e-3 * scales[1]]
+    )
+    assert np.allclose(fig05._poured_radius(cut), [1e-3, 1e-3, 2.5e-3, 1e-3])
     titles = [text.get_text() for text in figure.texts]
     assert [title[5] for title in titles] == ["a", "b", "c", "d", "e"]
     assert titles[1].endswith("poured, 24.0 mm high") and titles[2].endswith("vibrated, 20.3 mm high")
@@ -66,7 +94,6 @@ def test_stages_and_sizes(results):
     for axes in figure.axes:  # nothing beyond the paper
         box = axes.get_position()
         assert min(box.x0, box.y0) > 0.0 and max(box.x1, box.y1) < 1.0
-    legend = figure.axes[-1]
     figure.draw_without_rendering()
     for item in (*legend.patches, *legend.texts):  # nor beyond its own place, however low the section is
         inside = item.get_window_extent().transformed(legend.transAxes.inverted())
@@ -112,22 +139,53 @@ PRISM = {"L_mm": 357, "H_mm": 50, "B_mm": 63, "mass_kg": 2.7, "mobile_mass_kg": 
 
 
 @pytest.mark.parametrize(
-    ("geometry", "amplitude", "held"),
-    [(CYLINDER, "7.5", "upper plate: driven"), (TRAPEZOID, "10", "clamped"), (PRISM, "24", "inner clamps")],
+    ("geometry", "amplitude", "held", "driven"),
+    [
+        (CYLINDER, "7.5", [0.0], [1.0]),
+        (TRAPEZOID, "10", [0.0], [1.0]),
+        (PRISM, "24", [0.0, 1.0], [1 / 3, 2 / 3]),
+    ],
 )
-def test_drawing_carries_the_numbers_of_the_study(tmp_path, geometry, amplitude, held):
+def test_drawing_carries_the_numbers_of_the_study(tmp_path, geometry, amplitude, held, driven):
     study = {"specimens": {"geometry": geometry}, "test": {"amplitude_m": 1e-6 * float(amplitude)}}
     (path := tmp_path / "study.json").write_text(json.dumps(study))
     left, right = fig01.draw(study=[path]).axes
     texts = " ".join(text.get_text() for axes in (left, right) for text in axes.texts)
     lengths = [f"${name[:-3]}$ = {value} mm" for name, value in geometry.items() if name.endswith("_mm")]
     masses = [f"$M$ = {geometry['mass_kg']} kg", f"$m$ = {geometry['mobile_mass_kg']} kg"]
-    for words in (*lengths, *masses, f"{amplitude} µm", held):
+    for words in (*lengths, *masses, f"{amplitude} µm"):
         assert words in texts, words
-    moved, upright = right.lines[0].get_xdata(), right.lines[0].get_ydata()
-    if geometry is PRISM:  # most in the middle, at rest at the ends
-        assert np.argmax(moved) in range(38, 42) and moved[0] == moved[-1]
-    elif geometry is TRAPEZOID:
-        assert moved[-1] == moved.max() and upright[-1] == pytest.approx(0.06)
-    else:  # along its axis
-        assert np.ptp(moved) == 0.0 and upright[-1] > 0.15
+    shape = read_shape(geometry)
+    foot, head = (
+        1e-3 * geometry[name]
+        for name in {0: ("d_mm",) * 2, 1: ("B_mm", "b_mm"), 2: ("H_mm",) * 2}[
+            [CYLINDER, TRAPEZOID, PRISM].index(geometry)
+        ]
+    )
+    front = np.array([[-foot / 2, 0.0], [foot / 2, 0.0], [head / 2, shape.h], [-head / 2, shape.h]])
+    body, *plates = right.patches
+    assert body.get_xy()[:4] == pytest.approx(front)
+    assert any(
+        patch.get_xy()[:4] == pytest.approx(front) for patch in left.patches if isinstance(patch, Polygon)
+    )
+    places = {round((plate.get_y() + 0.5 * plate.get_height()) / shape.h, 1): plate for plate in plates}
+    assert sorted(places) == pytest.approx(sorted(np.round([*held, *driven], 1)))
+    hatched = sorted(level for level, plate in places.items() if plate.get_hatch())
+    assert hatched == held  # plates that rest
+    arrows = [text for text in right.texts if text.get_text() == ""]
+    for arrow, level in zip(arrows, sorted(driven, reverse=True), strict=True):
+        along = np.subtract(arrow.xy, arrow.xyann)
+        if geometry is CYLINDER:  # along its axis
+            assert along[0] == 0.0 and along[1] > 0.0
+        else:
+            assert along[1] == 0.0 and along[0] > 0.0 and arrow.xy[1] == pytest.approx(level * shape.h)
+    (west, upright), (east, _) = (line.get_data() for line in right.lines)
+    middle, width = 0.5 * (west + east), east - west
+    np.testing.assert_allclose(width, np.linspace(foot, head, 80))
+    if geometry is CYLINDER:
+        assert np.ptp(middle) == 0.0 and upright[-1] > 1.05 * shape.h
+    else:
+        line = shape.line(upright)
+        np.testing.assert_allclose(upright, np.linspace(0.0, shape.h, 80))
+        np.testing.assert_allclose(middle / np.abs(middle).max(), line / np.abs(line).max(), atol=1e-12)
+        assert np.abs(middle).max() > 0.05 * shape.h
