@@ -77,7 +77,7 @@ def test_items_end_with_a_pilcrow_and_templates_of_pages_escape():
     assert (
         template("reporting/pages/table.html", {"typeset": str, "worded": str}).environment.autoescape is True
     )
-    assert template("exports/comsol.j2").environment.autoescape is False
+    assert template("exports/statements.j2").environment.autoescape is False
 
 
 def test_limits_are_within_or_without():
