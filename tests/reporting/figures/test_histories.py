@@ -7,7 +7,8 @@ import pytest
 
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record, load, save
-from asphalt_nscd.reporting.figures import fig06, fig07, fig08
+from asphalt_nscd.measurements.geometry import shape_of
+from asphalt_nscd.reporting.figures import fig06, fig07, fig08, numbers
 from asphalt_nscd.reporting.figures.records import last_cycle
 
 
@@ -61,44 +62,76 @@ def test_time_steps_solved_and_swept_each_over_its_own_solution(results):
     stopped += steps_of(results, "b", {1e-4: 10.0, 2e-4: 5.0}, tolerance=1e-5)
     figure = fig06.draw(solved=steps_of(results, "c", {2e-4: 40.0, 2e-5: 40.4}), part=part, stopped=stopped)
     left, middle, right = figure.axes
-    assert legend_of(left) == ["200 µs", "20 µs"]
-    # the finest tolerance alone, over the amplitude of the solved smaller specimen
-    largest = [line.get_ydata().max() for line in middle.lines[:2]]
-    assert largest == pytest.approx([0.25, 0.5], rel=1e-4)
-    assert left.lines[1].get_ydata().max() == pytest.approx(1.0, rel=1e-4)
+    cycle = np.linspace(0.0, 500.0, 1001)  # ms, of 2 Hz
+    # amplitudes over that of the shortest step; and of the finest tolerance alone, over that of the part, solved
+    for axes, amplitudes, steps in ((left, (40 / 40.4, 1.0), (200, 20)), (middle, (0.25, 0.5), (200, 100))):
+        assert legend_of(axes) == [f"{step} µs" for step in steps]
+        for line, amplitude in zip(axes.lines, amplitudes):
+            time, force = line.get_data()
+            assert time[0] == 0.0 and time[-1] == pytest.approx(cycle[-1], abs=0.6)
+            assert force == pytest.approx(amplitude * np.sin(4e-3 * np.pi * time + 0.3), abs=0.01 * amplitude)
+        assert axes.lines[0].get_linewidth() > axes.lines[1].get_linewidth()
+        assert (axes.get_xlabel(), axes.get_ylabel()) == (
+            "time from rest (ms)",
+            "force over solved amplitude",
+        )
+    assert legend_of(right) == [numbers.power(1e-4), numbers.power(1e-5), "solved"]
     of_tolerances = [(line.get_xdata().tolist(), line.get_ydata().tolist()) for line in right.lines[:2]]
     assert of_tolerances == [([1e-4, 2e-4], [0.1, 0.05]), ([1e-4, 2e-4], [0.5, 0.25])]
+    assert right.lines[2].get_ydata() == [1.0, 1.0] and right.get_xscale() == right.get_yscale() == "log"
+    assert [label.get_text() for label in right.get_xticklabels()] == ["100", "200"]
+    assert right.get_ylim()[0] < 0.05 and right.get_ylim()[1] > 1.0
+    assert (right.get_xlabel(), right.get_ylabel()) == ("time step $dt$ (µs)", "|E*| over solved")
 
 
 def test_displacement_and_force_with_their_amplitudes(results):
     figure = fig07.draw(test=results.test(lead=0.3))
     upper, lower = figure.axes
     assert upper.get_ylabel() == "displacement (µm)" and lower.get_ylabel() == "force (N)"
-    assert upper.lines[0].get_ydata().max() == pytest.approx(50.0)
-    assert lower.lines[0].get_ydata().max() == pytest.approx(40.0, rel=1e-4)
+    for axes, amplitude, lead in ((upper, 50.0, 0.0), (lower, 40.0, 0.3)):
+        time, value = axes.lines[0].get_data()
+        assert value == pytest.approx(amplitude * np.sin(4e-3 * np.pi * time + lead), abs=1e-3 * amplitude)
+        assert axes.get_ylim() == pytest.approx((-1.25 * amplitude, 1.25 * amplitude), rel=1e-3)
+        # the crest of the force and that of the displacement, ms, each in the colour of its curve
+        crests = {line.get_color(): line.get_xdata()[0] for line in axes.lines[-2:]}
+        colours = lower.lines[0].get_color(), upper.lines[0].get_color()
+        expected = [125.0 - 1e3 * 0.3 / (4.0 * np.pi), 125.0]
+        assert [crests[colour] for colour in colours] == pytest.approx(expected, abs=0.6)
+    assert lower.get_xlim() == (0.0, 500.0) and lower.get_xlabel() == "time in the last cycle (ms)"
     assert [text.get_text() for text in upper.texts] == ["$z_0$ = 50 µm"]
     assert [text.get_text().strip() for text in lower.texts] == [
         "$F_0$ = 40 N",
         f"$\\Psi$ = {np.degrees(0.3):.1f}°",
     ]
-    # the crest of the force and that of the displacement, ms
-    crests = [line.get_xdata()[0] for line in lower.lines[-2:]]
-    assert crests == pytest.approx([125.0 - 1e3 * 0.3 / (4.0 * np.pi), 125.0], abs=0.6)
 
 
 def test_profiles_at_instants_and_histories_at_heights(results):
-    figure = fig08.draw(test=results.test(), specimen=results.specimen())
-    left, right = figure.axes
-    assert left.get_xlabel() == "mean velocity of the spheres (mm/s)"
+    """The empty layer in the middle is left out; theory is that of the beam, times the velocity of the head."""
+    left, right = fig08.draw(test=results.test(), specimen=results.specimen()).axes
+    heights, shares = np.array([10.0, 30.0, 70.0, 90.0]), np.array([0.1, 0.3, 0.7, 0.9])
+    head = 1e3 * 2.0 * np.pi * 2.0 * 50e-6 * np.cos(np.pi * np.arange(5) / 4.0)  # mm/s, at eighths of a cycle
+    theory, spheres = left.lines[:10:2], left.lines[1:10:2]
+    beam = shape_of(load(results.specimen()[0], "specimen").attributes)
+    for velocity, line, points in zip(head, theory, spheres, strict=True):
+        assert points.get_marker() != "None" and points.get_ydata() == pytest.approx(heights)
+        assert points.get_xdata() == pytest.approx(velocity * shares, abs=0.02)
+        along, height = line.get_data()
+        assert height == pytest.approx(np.linspace(0.0, 60.0, 200))
+        assert along == pytest.approx(velocity * beam.line(1e-3 * height), abs=0.02)
+    assert (
+        legend_of(left) == ["spheres", "beam theory"] and left.lines[11].get_color() == theory[0].get_color()
+    )
     assert [text.get_text() for text in left.texts] == ["0", "T/8", "T/4", "3T/8", "T/2"]
-    profiles = [line for line in left.lines if line.get_marker() != "None" and len(line.get_xdata()) > 1]
-    assert len(profiles) == 5
-    head = 1e3 * 2.0 * np.pi * 2.0 * 50e-6
-    # The empty layer in the middle is left out; the last instant is half a cycle after the first.
-    assert profiles[0].get_ydata() == pytest.approx([10.0, 30.0, 70.0, 90.0])
-    assert profiles[0].get_xdata() == pytest.approx(head * np.array([0.1, 0.3, 0.7, 0.9]), rel=2e-3)
-    assert profiles[-1].get_xdata() == pytest.approx(-head * np.array([0.1, 0.3, 0.7, 0.9]), rel=2e-3)
-    assert right.texts[-1].get_text() == "90 mm"
+    assert [text.xy[0] for text in left.texts] == pytest.approx(head, abs=0.02)
+    assert left.get_ylim() == (0.0, 60.0) and right.get_xlim() == (0.0, 0.5)
+    # layers nearest to fifths of the uppermost, over half a cycle
+    for line, share in zip(right.lines, (0.1, 0.3, 0.7, 0.7, 0.9)):
+        cycles, velocity = line.get_data()
+        assert cycles[0] == pytest.approx(0.0, abs=2e-3) and cycles[-1] == pytest.approx(0.5, abs=5e-3)
+        assert velocity == pytest.approx(share * head[0] * np.cos(2.0 * np.pi * cycles), abs=1e-6)
+    assert [text.get_text() for text in right.texts] == [f"{mm} mm" for mm in (10, 30, 70, 70, 90)]
+    assert right.get_xlabel() == r"time in the last cycle, $t/T$"
+    assert right.get_ylabel() == left.get_xlabel() == "mean velocity of the spheres (mm/s)"
 
 
 def test_last_cycle_that_begins_a_step_early(results):
