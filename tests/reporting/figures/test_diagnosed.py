@@ -85,26 +85,51 @@ def test_condition_that_was_not_simulated_is_empty_before(results):
 
 
 def test_planes_hold_the_same_points(results):
+    """Two specimens of the law's values; 20 degC was 20 % and 4 degrees too soft before, and 1 % after."""
     figure = fig_black.draw(**results.diagnosis(origin="measured"))
     black, cole = figure.axes
-    norm, phase = modulus(LAWS[20.0], 10.0)
-    star = norm / 1e3 * np.exp(1j * np.radians(phase))
-    # tests of specimen 1 at 3, 10 and 40 Hz, then of specimen 2
-    assert np.asarray(black.collections[1].get_offsets())[1] == pytest.approx((phase, norm / 1e3))
-    assert np.asarray(cole.collections[1].get_offsets())[1] == pytest.approx((star.real, star.imag))
-    before = black.lines[2]
-    assert before.get_xdata()[1] == pytest.approx(phase - 4.0)
+
+    def in_planes(size, phase):
+        star = 1e-3 * size * np.exp(1j * np.radians(phase))
+        return {black: (phase, 1e-3 * size), cole: (star.real, star.imag)}
+
+    for number, (temperature, law) in enumerate(LAWS.items()):
+        size, phase = np.array([modulus(law, f) for f in (3.0, 10.0, 40.0)]).T
+        off, less, left = (0.2, 4.0, 0.01) if temperature == 20.0 else (0.0, 0.0, 0.0)
+        before, after = in_planes(size * np.exp(-off), phase - less), in_planes(size * np.exp(-left), phase)
+        for axes, told in in_planes(size, phase).items():
+            points = axes.collections[number].get_offsets().T
+            np.testing.assert_allclose(points, np.tile(told, 2), rtol=1e-8)
+            dashed, solid = axes.lines[2 * number : 2 * number + 2]
+            np.testing.assert_allclose(dashed.get_data(), before[axes], rtol=1e-8)
+            np.testing.assert_allclose(solid.get_data(), after[axes], rtol=1e-8)
+            assert (dashed.get_linestyle(), solid.get_linestyle()) == ("--", "-")
     assert {"measured", "simulated before", "simulated after", "0 °C", "20 °C"} <= set(texts_of(figure))
+    legend = {line.get_label(): line.get_linestyle() for line in fig_black.keys("measured")[1:]}
+    assert legend == {"simulated before": "--", "simulated after": "-"}
+    labels = [(axes.get_xlabel(), axes.get_ylabel()) for axes in (black, cole)]
+    assert labels == [
+        ("phase angle (°)", "|E*| (GPa)"),
+        ("storage modulus E1 (GPa)", "loss modulus E2 (GPa)"),
+    ]
 
 
 def test_master_curve_stands_on_frequency_times_shift_factor(results):
     figure = fig_master.draw(**results.diagnosis())
-    norm, _, shifts = figure.axes
-    cold, warm = (np.asarray(points.get_offsets())[:3, 0] for points in norm.collections)
-    assert cold == pytest.approx([300.0, 1000.0, 4000.0]) and warm == pytest.approx([3.0, 10.0, 40.0])
-    assert norm.lines[0].get_xdata() == pytest.approx([300.0, 1000.0, 4000.0])
+    norm, lag, shifts = figure.axes
+    for number, (law, places) in enumerate(zip(LAWS.values(), ([300, 1000, 4000], [3, 10, 40]), strict=True)):
+        size, phase = np.array([modulus(law, f) for f in (3.0, 10.0, 40.0)]).T
+        for axes, told in ((norm, 1e-3 * size), (lag, phase)):
+            points = axes.collections[number].get_offsets().T
+            np.testing.assert_allclose(points, [2 * places, np.tile(told, 2)], rtol=1e-8)
+            after = told * np.exp(-0.01 * number) if axes is norm else told
+            np.testing.assert_allclose(axes.lines[number].get_data(), [places, after], rtol=1e-8)
+            assert axes.lines[number].get_color() == shifts.lines[number].get_color()
     assert [(*line.get_xdata(), *line.get_ydata()) for line in shifts.lines] == [(0.0, 2.0), (20.0, 0.0)]
-    assert "at 20 °C" in norm.get_xlabel() and "reconstructed" in texts_of(figure)
+    assert "reconstructed" in texts_of(figure) and "modelled" in texts_of(figure)
+    assert norm.get_xlabel() == lag.get_xlabel() == "reduced frequency (Hz), at 20 °C"
+    labels = [axes.get_ylabel() for axes in figure.axes]
+    assert labels == ["|E*| (GPa)", "phase angle (°)", "log10 shift factor"]
 
 
 def test_limits_stand_in_units_of_use_beside_what_was_found(results):

@@ -25,16 +25,33 @@ def points_of(axes):
     }
 
 
-def test_one_law_line_and_two_sets_of_points_per_temperature(results):
-    figure = fig09(
+@pytest.mark.parametrize(
+    ("figure_of", "column", "unit", "more", "label"),
+    [(fig09, 0, 1e-3, 0.0, "|E*| (GPa)"), (fig10, 1, 1.0, 0.01, "phase angle (°)")],
+)
+def test_one_law_line_and_two_sets_of_points_per_temperature(results, figure_of, column, unit, more, label):
+    figure = figure_of(
         simulations=results.simulations(), measured=results.measured(), laws=results.laws(0.0, 20.0)
     )
     (axes,) = figure.axes
-    points = points_of(axes)
-    assert len(points["open"]) == len(points["filled"]) == len(LAWS)
-    assert sum(line.get_marker() == "None" and len(line.get_xdata()) > 3 for line in axes.lines) == len(LAWS)
-    assert axes.get_ylabel() == "|E*| (GPa)" and axes.get_xlabel() == "frequency (Hz)"
+    points, fine = points_of(axes), np.geomspace(3.0, 40.0, 200)
+    lines = [line for line in axes.lines if len(line.get_xdata()) == 200]
+    for number, law in enumerate(LAWS.values()):
+        told = unit * np.array([modulus(law, f)[column] for f in (3.0, 10.0, 40.0)])
+        for kind, by, off in (("open", 1 / 1.025, 0.0), ("filled", 1.025, more)):
+            drawn = points[kind][number]
+            np.testing.assert_allclose(drawn.get_xydata().T, [by * np.array([3, 10, 40]), told + off], rtol=1e-9)
+            assert drawn.get_color() == lines[number].get_color() == axes.texts[number].get_color()
+        np.testing.assert_allclose(
+            lines[number].get_data(), [fine, [unit * modulus(law, f)[column] for f in fine]], rtol=1e-9
+        )
+        assert axes.texts[number].xy == pytest.approx((40.0 * 1.025, told[-1] + more))
+    assert axes.get_ylabel() == label and axes.get_xlabel() == "frequency (Hz)"
+    assert axes.get_yscale() == ("log" if column == 0 else "linear")
     assert [text.get_text() for text in axes.texts] == ["0 °C", "20 °C"]
+    faces = [line.get_markerfacecolor() for line in figure.legends[0].legend_handles]
+    assert faces[0] == "white" != faces[1]
+    assert legend_of(figure)[1:] == ["simulated, one sample", "Burgers law of the bonds"]
 
 
 def test_points_are_means_over_samples_with_standard_deviations(results):
@@ -47,17 +64,6 @@ def test_points_are_means_over_samples_with_standard_deviations(results):
     half = [0.5 * (segment[1, 1] - segment[0, 1]) for segment in segments]
     assert half == pytest.approx(0.1 * np.sqrt(2.0) * expected, rel=1e-9)
     assert "simulated, mean ± s.d. of 2 samples" in legend_of(figure)
-
-
-def test_law_line_is_the_law(results):
-    figure = fig10(
-        simulations=results.simulations(), measured=results.measured(), laws=results.laws(0.0, 20.0)
-    )
-    (axes,) = figure.axes
-    law = next(line for line in axes.lines if line.get_marker() == "None" and len(line.get_xdata()) > 3)
-    assert (law.get_xdata()[0], law.get_ydata()[0]) == pytest.approx((3.0, modulus(LAWS[0.0], 3.0)[1]))
-    assert (law.get_xdata()[-1], law.get_ydata()[-1]) == pytest.approx((40.0, modulus(LAWS[0.0], 40.0)[1]))
-    assert axes.get_ylabel() == "phase angle (°)"
 
 
 def test_one_sample_and_one_specimen_have_no_bars(results):
