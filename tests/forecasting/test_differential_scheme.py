@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecasting.forecast import forecast, refilled
+from asphalt_nscd.forecasting.contact import contact_stiffness, rings
+from asphalt_nscd.forecasting.forecast import INPUTS, OF_THE_MODEL, forecast, refilled
 from asphalt_nscd.forecasting.recipe import Grading, recipe_of
-from asphalt_nscd.forecasting.scheme import SIZES, Settings, binder_volume, modulus_of_mix, volumes
+from asphalt_nscd.forecasting.scheme import SIZES, Settings, _filled, binder_volume, modulus_of_mix, volumes
 
 VOLUMES = Settings(contacts=0.0, pressure=0.0)
 BINDER = np.geomspace(1e4, 1e9, 11) * np.exp(0.8j)
@@ -70,6 +71,106 @@ def bounds_of(asked, binder):
     return {"voigt": voigt, "reuss": reuss, "highest": highest, "lowest": lowest}
 
 
+def naive_moduli(recipe, binder, settings):
+    """K and G without the dry skeleton, and E* with it (n,) [Pa], step by step as the text of `scheme` says."""
+    stone, air_all = recipe.aggregate, recipe.voids
+    k_stone = stone.modulus / 3 / (1 - 2 * stone.poisson)
+    g_stone, plane = stone.modulus / 2 / (1 + stone.poisson), stone.modulus / 2 / (1 - stone.poisson**2)
+    by_mass = (
+        recipe.binder_share / recipe.binder_density,
+        (1 - recipe.binder_share) / recipe.aggregate_density,
+    )
+    liquid = (1 - air_all) * by_mass[0] / sum(by_mass)
+    solids = 1 - air_all - liquid
+    filler = float(np.interp(np.log(63e-6), np.log(recipe.grading.sieve), recipe.grading.passing))
+
+    def finer(size):
+        """Grains and air finer than a size; filler evenly over the logarithm of size from 1 um, air among the rest."""
+        if size <= 63e-6:
+            return solids * filler * np.log(size / 1e-6) / np.log(63.0), 0.0
+        share = np.interp(np.log(size), np.log(recipe.grading.sieve), recipe.grading.passing)
+        return solids * share, air_all * (share - filler) / (1 - filler)
+
+    def slopes(compliance, g, air):
+        k = 1 / compliance
+        around = g * (9 * k + 8 * g) / (6 * (k + 2 * g))
+        dk = (1 - air) * (k_stone - k) * (3 * k + 4 * g) / (3 * k_stone + 4 * g) - air * k * (
+            3 * k + 4 * g
+        ) / (4 * g)
+        dg = (1 - air) * (g_stone - g) * (g + around) / (g_stone + around) - air * g * (g + around) / around
+        return np.array([-dk / k**2, dg])
+
+    def put_in(k, g, air, amount, steps=12):
+        y, h = np.array([1 / k, g]), amount / steps
+        for _ in range(steps):
+            one = slopes(*y, air)
+            two = slopes(*(y + h / 2 * one), air)
+            three = slopes(*(y + h / 2 * two), air)
+            y = y + h / 6 * (one + 2 * two + 2 * three + slopes(*(y + h * three), air))
+        return 1 / y[0], y[1]
+
+    k = settings.binder_bulk + 0 * binder
+    g = 3 * k * binder / (9 * k - binder)
+    known = [(SIZES[0], k, g)]
+    for low, high in zip(SIZES[:-1], SIZES[1:]):
+        (before, air_before), (after, air_after) = finer(low), finer(high)
+        if high <= 63e-6:
+            packed = 1 - recipe.rigden_voids
+            room = [1 - of / (liquid + of) / packed for of in (before, after)]
+            k, g = put_in(k, g, 0.0, packed * np.log(room[0] / room[1]))
+        elif after > before:
+            more, air = after - before, air_after - air_before
+            total = liquid + after + air_after
+            k, g = put_in(k, g, air / (more + air), -np.log(1 - (more + air) / total))
+            size = np.sqrt(low * high)
+            radius = size / 2
+            gaps = [
+                settings.gap + at**2 * radius / 4 for at in rings()
+            ]  # of spheres whose R is half their radius
+            at = np.log([one[0] for one in known])
+            bulks, shears = (np.array([one[n] for one in known]).T for n in (1, 2))
+            medium = []
+            for h, moduli in zip(gaps, (shears, bulks + 4 / 3 * shears)):
+                parts = [
+                    [np.interp(np.log(h), at, part) for part in np.log(of).view(float).reshape(-1, 2).T]
+                    for of in moduli
+                ]
+                medium.append(np.array([np.exp(real + 1j * imaginary) for real, imaginary in parts]))
+            stiff = contact_stiffness(medium[0] / plane, medium[1] / plane, settings.gap * 2 / radius)
+            touching = min(1.0, np.log(size / 63e-6) / np.log(90 / 63))
+            n = settings.contacts * touching * more / total * liquid / (liquid + air_all)
+            spring = stiff * plane * radius / 2
+            k, g = (
+                k + n * spring / (6 * np.pi * radius) * (1 - k / k_stone) ** 2,
+                g + n * spring / (10 * np.pi * radius) * (1 - g / g_stone) ** 2,
+            )
+        known.append((high, k, g))
+    filled, coarse = (k, g), solids * (1 - filler)
+    force = 4 * np.pi * settings.pressure / (coarse * 4)  # on a contact of spheres of radius 1
+    normal = 2 * plane * np.cbrt(3 * force * 0.5 / (4 * plane))
+    tangential = normal * 2 * (1 - stone.poisson) / (2 - stone.poisson)
+    n = coarse * settings.contacts / np.pi
+    k = k + n * normal / 6 * (1 - k / k_stone) ** 2
+    g = g + n * (normal + 1.5 * tangential) / 10 * (1 - g / g_stone) ** 2
+    return *filled, 9 * k * g / (3 * k + g)
+
+
+@pytest.mark.parametrize(
+    ("voids", "settings"),
+    [
+        (0.06, Settings()),
+        (0.0, Settings(contacts=3.0, gap=1e-6, pressure=0.0)),
+        (0.2, Settings(contacts=0.5, pressure=1e6, binder_bulk=5e9)),
+    ],
+)
+def test_the_scheme_is_what_its_text_says(recipe, voids, settings):
+    binder = np.array([1e3, 1e6, 1e8, 1e9]) * np.exp(0.7j)
+    asked = replace(recipe, voids=voids)
+    k, g, young = naive_moduli(asked, binder, settings)
+    np.testing.assert_allclose(_filled(asked, binder, settings), (k, g), rtol=2e-3)
+    np.testing.assert_allclose(modulus_of_mix(asked, binder, settings), young, rtol=2e-3)
+
+
 def test_grains_in_a_soft_binder_are_a_suspension(recipe):
     """(1 - phi)^(-5/2) of rigid grains in what keeps its volume; filler's by Krieger and Dougherty."""
     few = replace(recipe, voids=0.0)
@@ -101,24 +202,6 @@ def test_air_in_a_mix_of_one_material_is_the_differential_scheme_of_voids(recipe
     assert modulus_of_mix(
         replace(recipe, voids=0.0), np.array([stone.modulus]), replace(settings, contacts=1.0)
     )[0].real == pytest.approx(stone.modulus, rel=1e-9)
-
-
-def test_contacts_of_grains_without_a_medium_are_digbys(recipe):
-    """What contacts add to one thin layer of sizes: G = f n k / (10 pi r) with k of the contact alone."""
-    from asphalt_nscd.forecasting.contact import RINGS, contact_stiffness
-
-    one = Grading(SIZES[24:26], np.array([0.0, 1.0]))
-    alone = replace(recipe, grading=one, voids=0.0, binder_share=0.5)
-    soft = np.array([1e3 + 0j])
-    added = modulus_of_mix(alone, soft, Settings(contacts=2e-3, gap=1e-9, pressure=0.0)) - modulus_of_mix(
-        alone, soft, VOLUMES
-    )
-    plane, share = alone.aggregate.plane, float(volumes(alone)[0][-1])
-    there = [np.full((1, RINGS), value / plane, complex) for value in (soft[0] / 3, 2.5e9)]
-    radius = 0.5 * float(np.sqrt(SIZES[24] * SIZES[25]))
-    k = contact_stiffness(there[0], there[1], 1e-9 / (radius / 2))[0] * plane * radius / 2
-    shear = share * 2e-3 * k / (10 * np.pi * radius)
-    assert added[0].real == pytest.approx(3 * shear.real, rel=0.02)
 
 
 def test_the_dry_skeleton_is_waltons_and_falls_with_air(recipe):
@@ -210,18 +293,38 @@ def test_unusual_mixes_get_an_answer(content, changed):
     assert (np.abs(made.modulus) > 1e6).all() and (np.diff(np.abs(made.modulus)) > 0.0).all()
 
 
-def test_what_is_moved(recipe):
-    made = forecast(recipe)
-    for name, sign in {
-        "voids": -1,
-        "binder": -1,
-        "rigden": 1,
-        "stiffness": 1,
-        "aggregate": 1,
-    }.items():
-        assert (sign * made.moved[name].real > 0.0).all(), name
-    for name, sign in {"contacts": 1, "gap": -1, "pressure": -1}.items():
-        assert (sign * made.moved[name].real > 0.0).all(), name
-    grading = refilled(recipe.grading, 0.01)
-    assert grading.passing_at(63e-6) == pytest.approx(recipe.grading.passing_at(63e-6) + 0.01)
-    assert grading.passing_at(10e-3) == 1.0
+def test_what_each_input_and_number_of_the_model_moves(content):
+    """Against recipes that say so themselves."""
+    made = forecast(recipe_of(content))
+    more = {
+        "voids": {"air_voids_percent": 6.5},
+        "binder": {"binder_percent_by_mass": 5.6},
+        "rigden": {"rigden_voids_percent": 40},
+        "stiffness": {"angular_frequencies_rad_s": [2 * w for w in content["angular_frequencies_rad_s"]]},
+        "aggregate": {"aggregate": {"E_GPa": 75, "poisson": 0.2}},
+    }
+    other = {name: forecast(recipe_of(content | change)).modulus for name, change in more.items()}
+    filled = replace(made.recipe, grading=refilled(made.recipe.grading, 0.01))
+    other["filler"] = forecast(filled).modulus
+    settings = {
+        "contacts": Settings(contacts=2.1),
+        "gap": Settings(gap=30e-9),
+        "pressure": Settings(pressure=1e4 / 3),
+    }
+    other |= {name: forecast(made.recipe, one).modulus for name, one in settings.items()}
+    assert set(other) == set(made.moved) == {*INPUTS, *OF_THE_MODEL}
+    for name, modulus in other.items():
+        np.testing.assert_allclose(made.moved[name], np.log(modulus / made.modulus), atol=1e-12, err_msg=name)
+
+
+def test_filler_takes_the_place_of_all_that_is_coarser():
+    """8 % of filler become 10 %: what is coarser keeps its proportions, and what is finer its own."""
+    before = Grading(1e-3 * np.array([0.02, 0.2, 2.0, 10.0]), np.array([0.04, 0.2, 0.4, 1.0]))
+    filler = before.passing_at(63e-6)
+    after = refilled(before, 0.02)
+    np.testing.assert_allclose(1e3 * after.sieve, [0.02, 0.063, 0.2, 2.0, 10.0])
+    rest = (np.array([0.2, 0.4, 1.0]) - filler) / (1 - filler)
+    told = [0.04 * (filler + 0.02) / filler, filler + 0.02, *(filler + 0.02 + rest * (0.98 - filler))]
+    np.testing.assert_allclose(after.passing, told)
+    mastic = Grading(1e-3 * np.array([0.001, 0.063]), np.array([0.0, 1.0]))
+    np.testing.assert_allclose(refilled(mastic, 0.02).passing, [0.0, 1.0])

@@ -36,9 +36,8 @@ def draw(laws: list[Path], study: list[Path]) -> Figure:
                 opening, stress = _pulled(law, side * rate)
                 reaction = np.stack([normal * stress, tangential * stress, 0.0 * stress])
                 used = utilisations(reaction.T.ravel(), np.full(stress.shape, strength))
-                # A bond stays broken, whatever its law would bear later.
-                broken = np.maximum.accumulate(used > 1.0)
-                shown = np.where(broken, 0.0, reaction.sum(axis=0)) / 1e6
+                # At a constant rate the stress never falls, so that a bond stays broken.
+                shown = np.where(used > 1.0, 0.0, reaction.sum(axis=0)) / 1e6
                 axes.plot(1e6 * opening, shown, color=colour, label=f"{rate:g}/s" if side > 0 else None)
         for line in (axes.axhline, axes.axvline):
             line(0.0, color=style.PALE, lw=0.5, zorder=0)
