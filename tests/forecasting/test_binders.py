@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.forecasting.binders import (
     GRADES,
     ViscosityShift,
@@ -38,6 +39,15 @@ def test_a_grade_is_its_usual_a_and_vts():
     assert shift.viscosity(-10.0) == pytest.approx(6.64e9, rel=0.01)
     grade, known = read_binder({"grade": "PG 58-28"}, "r"), read_binder({"A": 11.010, "VTS": -3.701}, "r")
     assert grade.law.complex_modulus(OMEGA, 20.0) == pytest.approx(known.law.complex_modulus(OMEGA, 20.0))
+    crossing = shift.crossover(
+        np.array([[20.0, -5.0], [20.0, 40.0]])
+    )  # Young's modulus is three times the shear's
+    found = grade.law.complex_modulus(crossing, np.array([[20.0, -5.0], [20.0, 40.0]]))
+    np.testing.assert_allclose(found, 3e9 * 10**-1.8 * np.exp(0.25j * np.pi) * np.ones((2, 2)), rtol=1e-9)
+    assert (
+        read_binder({"grade": "pg58 - 28"}, "r").law == grade.law
+        and grade.law.shift.reference_temperature == 15.0
+    )
 
 
 def test_all_grades_obey_one_rule_to_their_last_digit():
@@ -46,6 +56,7 @@ def test_all_grades_obey_one_rule_to_their_last_digit():
     A digit of A or VTS that is off by ten moves the first by a third, the second as far.
     """
     for high, lows in GRADES.items():
+        assert [*lows] == list(range(max(lows), min(lows) - 1, -6)) and max(lows) in (-10, -34)
         for pair in lows.values():
             assert ViscosityShift(*pair).viscosity(high) == pytest.approx(300.0, rel=0.05), (high, pair)
     for low in {low for lows in GRADES.values() for low in lows}:
@@ -82,7 +93,9 @@ def test_stiffer_grades_are_stiffer_where_they_are_named_for():
     assert (np.diff(hot) > 0).all() and (np.diff(cold) > 0).all()
 
 
-@pytest.mark.parametrize(("letter", "told"), [("", False), ("S", False), ("E", True), ("V", True)])
+@pytest.mark.parametrize(
+    ("letter", "told"), [("", False), ("S", False), ("H", True), ("V", True), ("E", True)]
+)
 def test_a_grade_with_a_letter_of_traffic(letter, told):
     """AASHTO M 332: S is the plain grade; of the others the usual viscosity is that of the plain one, and told so."""
     read = read_binder({"grade": f"PG 64{letter}-22"}, "r")
@@ -109,6 +122,10 @@ def test_recycled_asphalt_stiffens_by_the_share_of_its_binder(content):
     old = {"percent_by_mass": 20, "binder_percent_by_mass": 5, "binder": {"grade": "82-16"}}
     new, mixed = recipe_of(content).binder_modulus(), recipe_of(content | {"rap": old}).binder_modulus()
     hard = recipe_of(content | {"binder": {"grade": "82-16"}}).binder_modulus()
+    assert recipe_of(content | {"rap": old}).binder.shift == recipe_of(content).binder.shift
+    with pytest.raises(InputError, match="rap: brings 5.5 % of binder into a mix of 5.4 %"):
+        recipe_of(content | {"rap": old | {"percent_by_mass": 55, "binder_percent_by_mass": 10}})
+    recipe_of(content | {"rap": old | {"percent_by_mass": 54, "binder_percent_by_mass": 10}})
     assert np.log(mixed / new) == pytest.approx(np.log(hard / new) * 0.2 * 5 / 5.4)
 
 

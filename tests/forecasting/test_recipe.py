@@ -5,15 +5,48 @@ import pytest
 import yaml
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.forecasting.recipe import read_recipe, recipe_of
+from asphalt_nscd.forecasting.recipe import INCHES, NUMBERED, read_recipe, recipe_of
 from asphalt_nscd.forecasting.scheme import require_free_binder
+from asphalt_nscd.forecasting.solid import Solid
+from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.table_import.shear import read_sweeps
 
 
+def test_a_recipe_in_si_units(content):
+    read = recipe_of(content, "folder/mine.yaml")
+    assert (read.name, read.source, read.file) == ("a hot mix", "not stated", "folder/mine.yaml")
+    numbers = (read.binder_share, read.voids, read.aggregate_density, read.binder_density, read.rigden_voids)
+    assert numbers == pytest.approx((0.054, 0.06, 2670, 1040, 0.35))
+    assert read.aggregate == Solid(60e9, 0.2) and read.measured is None and not read.shifted
+    assert read.aggregate_fraction == pytest.approx(94.6 / 2670 / (94.6 / 2670 + 5.4 / 1040))
+    np.testing.assert_allclose(read.grading.sieve, [63e-6, 2e-3, 4e-3, 6e-3, 10e-3])
+    np.testing.assert_allclose(read.grading.passing, [0.0877, 0.41238, 0.56062, 0.72324, 1.0])
+    between = read.grading.passing_at(np.array([1e-6, np.sqrt(2e-3 * 4e-3), 0.02]))
+    np.testing.assert_allclose(between, [0.0877, (0.41238 + 0.56062) / 2, 1.0])
+    np.testing.assert_allclose(2 * np.pi * read.frequency, content["angular_frequencies_rad_s"])
+    assert (read.temperature == 15.0).all() and read.frequency.size == 5
+    law = TwoS2P1D(0.1, 1e9, k=0.22, h=0.63, delta=2.2, tau=0.001945, beta=50.0, shift=read.binder.shift)
+    omega = np.array(content["angular_frequencies_rad_s"])
+    np.testing.assert_allclose(read.binder_modulus(), law.complex_modulus(omega, 15.0))
+    for key in ("density_kg_m3", "aggregate", "angular_frequencies_rad_s", "name"):
+        del content[key]
+    usual = recipe_of(
+        content | {"binder": {"grade": "64-22"}, "rigden_voids_percent": 30}, "folder/mine.yaml"
+    )
+    assert (usual.name, usual.aggregate_density, usual.binder_density) == ("mine", 2670, 1030)
+    assert usual.aggregate == Solid(60e9, 0.2) and usual.rigden_voids == pytest.approx(0.3)
+    grid = np.meshgrid([-10, 0, 10, 15, 20, 30, 40], [0.1, 0.3, 1, 3, 10, 25], indexing="ij")
+    np.testing.assert_array_equal([usual.temperature, usual.frequency], [one.ravel() for one in grid])
+
+
+def test_a_solid_has_the_moduli_of_its_lame_constants():
+    solid, (lame, shear) = Solid(60e9, 0.25), (24e9, 24e9)
+    assert (solid.shear, solid.bulk) == pytest.approx((shear, lame + 2 / 3 * shear))
+    assert solid.plane == pytest.approx(2 * shear * (lame + shear) / (lame + 2 * shear))
+
+
 def test_the_shipped_recipe_is_read():
-    recipe = read_recipe("data/forecast/recipe.yaml")
-    assert recipe.name == "HMA H0"
-    assert recipe.frequency.size == 20
+    assert read_recipe("data/forecast/recipe.yaml").frequency.size == 20
 
 
 RHEOMETER = "temperature_C,frequency_Hz,G_MPa,phase_deg"
@@ -125,11 +158,65 @@ def test_a_bad_binder_is_refused(content, tmp_path, key, value, said):
     assert re.search(said, refusal(content, tmp_path))
 
 
-def test_sieves_of_astm_e11_by_name(content):
-    named = {'1"': 100, "3/4": 95, "3/8 in": 70, "#4": 48, "No. 8": 32, "no 30": 16, "No.200": 5}
-    millimetres = {25: 100, 19: 95, 9.5: 70, 4.75: 48, 2.36: 32, 0.6: 16, 0.075: 5}
+def test_sieves_of_astm_e11_by_name():
+    """From 4.75 mm down each is a fourth root of two finer than the one before, or several are; 1 in is 25.4 mm."""
+    steps = {
+        "4": 0,
+        "6": 2,
+        "8": 4,
+        "10": 5,
+        "12": 6,
+        "16": 8,
+        "20": 10,
+        "30": 12,
+        "40": 14,
+        "50": 16,
+        "60": 17,
+    }
+    steps |= {"80": 19, "100": 20, "140": 22, "200": 24, "230": 25}
+    assert {name: 4.75 / 2 ** (step / 4) for name, step in steps.items()} == pytest.approx(NUMBERED, rel=0.02)
+    inches = {
+        "3": 3,
+        "2 1/2": 2.5,
+        "2": 2,
+        "1 1/2": 1.5,
+        "1": 1,
+        "3/4": 0.75,
+        "1/2": 0.5,
+        "3/8": 0.375,
+        "1/4": 0.25,
+    }
+    assert {name: 25.4 * size for name, size in inches.items()} == pytest.approx(INCHES, rel=0.02)
+
+
+def test_sieves_by_their_names_are_those_in_millimetres(content):
+    """A whole number without a mark of inches is in mm."""
+    named = {'1-1/2"': 100, "1 in.": 99, "3/4": 95, "3": 60, "#4": 70, "No. 8": 32, "no 30": 16, "No.200": 5}
+    millimetres = {37.5: 100, 25: 99, 19: 95, 4.75: 70, 3: 60, 2.36: 32, 0.6: 16, 0.075: 5}
     read, known = (recipe_of(content | {"grading": sieves}).grading for sieves in (named, millimetres))
     assert read.sieve == pytest.approx(known.sieve) and (read.passing == known.passing).all()
+
+
+def test_bounds_of_a_recipe_are_in_it(content):
+    """The least air, the coarsest and finest sieve, the least glass above which stone is softer."""
+    for change in (
+        {"air_voids_percent": 0.15},
+        {"grading": {100: 100, 1: 40, 0.15: 9}},
+        {"grading": {0.5: 100, 0.2: 40, 0.063: 9}, "binder_percent_by_mass": 12},
+        {"grading": {4: 100, 1: 40, 0.2: 0}},
+        {"aggregate": {"E_GPa": 10, "poisson": 0.2}, "binder": content["binder"] | {"E0_MPa": 9999}},
+    ):
+        recipe_of(content | change)
+    for change in (
+        {"air_voids_percent": 0.14},
+        {"grading": {101: 100, 1: 40, 0.15: 9}},
+        {"grading": {0.49: 100, 0.2: 40, 0.063: 9}, "binder_percent_by_mass": 12},
+        {"grading": {4: 100, 1: 40, 0.2: 9}},
+        {"aggregate": {"E_GPa": 10, "poisson": 0.2}, "binder": content["binder"] | {"E0_MPa": 10000}},
+        {"binder_percent_by_mass": 1.1},
+    ):
+        with pytest.raises(InputError):
+            recipe_of(content | change)
 
 
 def test_a_sieve_that_yaml_takes_for_a_remark_is_told(tmp_path):
@@ -199,14 +286,45 @@ def test_a_bad_table_of_a_rheometer_is_refused(content, tmp_path, rows, said):
 
 
 def test_a_table_of_a_rheometer_gives_the_law_it_was_drawn_from(content, tmp_path):
+    """About its middle temperature; and how far the law stays from one that scatters."""
     content["binder"] |= {"reference_temperature_C": 20, "shift": {"wlf_C1": 20, "wlf_C2_K": 150}}
-    law = recipe_of(content).binder
-    (tmp_path / "dsr.csv").write_text("\n".join([RHEOMETER, *rheometer(law)]) + "\n")
-    (tmp_path / "recipe.yaml").write_text("")
-    content["binder"] = {"table": "dsr.csv", "poisson": 0.45}
-    read = recipe_of(content, tmp_path / "recipe.yaml").binder
+    law, told = recipe_of(content).binder, {}
+    for off in (0.0, 0.25):
+        rows = [[float(x) for x in row.split(",")] for row in rheometer(law)]
+        scattered = [f"{t},{f},{g * np.exp(off * (-1) ** n)},{p}" for n, (t, f, g, p) in enumerate(rows)]
+        (tmp_path / "dsr.csv").write_text("\n".join([RHEOMETER, *scattered]) + "\n")
+        told[off] = recipe_of(
+            content | {"binder": {"table": "dsr.csv", "poisson": 0.45}}, tmp_path / "r.yaml"
+        )
+    read, rough = told.values()
     omega = np.array([1e-2, 1.0, 100.0])
-    assert read.complex_modulus(omega, 15.0) == pytest.approx(law.complex_modulus(omega, 15.0), rel=0.02)
+    assert read.binder.complex_modulus(omega, 15.0) == pytest.approx(
+        law.complex_modulus(omega, 15.0), rel=0.02
+    )
+    assert (
+        read.binder.glassy_modulus == pytest.approx(2.9e9) and read.binder.shift.reference_temperature == 20.0
+    )
+    assert read.measured == rough.measured == (0.0, 60.0) and read.caveat == ""
+    assert rough.caveat == "The law of the binder misses its table by 25 %."
+    outside = read.outside(np.array([-0.6, -0.4, 60.4, 60.6]))
+    assert outside.tolist() == [True, False, False, True]
+    (tmp_path / "dsr.csv").write_text("\n".join([RHEOMETER, *rheometer(law)]) + "\n")
+    rap = {"percent_by_mass": 20, "binder_percent_by_mass": 5, "binder": {"grade": "PG 76E-22"}}
+    both = recipe_of(content | {"binder": {"table": "dsr.csv"}, "rap": rap}, tmp_path / "r.yaml")
+    assert both.measured == (0.0, 60.0) and both.caveat.startswith("PG 76E-22 is taken for PG 76-22")
+    both = recipe_of(
+        content | {"binder": {"grade": "64-22"}, "rap": rap | {"binder": {"table": "dsr.csv"}}},
+        tmp_path / "r",
+    )
+    assert both.measured == (0.0, 60.0)
+    (tmp_path / "warm.csv").write_text(
+        "\n".join([RHEOMETER, *(row for row in rheometer(law) if row[0] != "0")]) + "\n"
+    )
+    both = recipe_of(
+        content | {"binder": {"table": "dsr.csv"}, "rap": rap | {"binder": {"table": "warm.csv"}}},
+        tmp_path / "r",
+    )
+    assert both.measured == (10.0, 60.0)
 
 
 def test_a_laboratorys_export_is_read_in_its_own_units(content, tmp_path):
