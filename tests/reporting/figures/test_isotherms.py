@@ -40,7 +40,9 @@ def test_one_law_line_and_two_sets_of_points_per_temperature(results, figure_of,
         told = unit * np.array([modulus(law, f)[column] for f in (3.0, 10.0, 40.0)])
         for kind, by, off in (("open", 1 / 1.025, 0.0), ("filled", 1.025, more)):
             drawn = points[kind][number]
-            np.testing.assert_allclose(drawn.get_xydata().T, [by * np.array([3, 10, 40]), told + off], rtol=1e-9)
+            np.testing.assert_allclose(
+                drawn.get_xydata().T, [by * np.array([3, 10, 40]), told + off], rtol=1e-9
+            )
             assert drawn.get_color() == lines[number].get_color() == axes.texts[number].get_color()
         np.testing.assert_allclose(
             lines[number].get_data(), [fine, [unit * modulus(law, f)[column] for f in fine]], rtol=1e-9

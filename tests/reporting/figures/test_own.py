@@ -126,8 +126,8 @@ def test_readings_are_told_apart(results):
 def test_stretched_bonds_pull_and_the_head_moves_by_one(results):
     speed, force = fig_forces.slow_deflection(load(results.model()[0], "model"))
     assert speed == pytest.approx([0.5, 0.75, 0.0, 0.0, 1.0])
-    # 4 x (0.75 - 0.5), 2 x (0 - 0.5), 2 x (1 - 0.5), whose mean size is one.
-    assert force == pytest.approx([1.0, -1.0, 1.0])
+    # 6 x (0.75 - 0.5), 2 x (0 - 0.5), 2 x (1 - 0.5), over their mean size.
+    assert force == pytest.approx(np.array([1.5, -1.0, 1.0]) * 6 / 7)
 
 
 def test_chains_leave_out_plates_and_what_lies_off_the_middle(results, monkeypatch):
@@ -136,26 +136,26 @@ def test_chains_leave_out_plates_and_what_lies_off_the_middle(results, monkeypat
     monkeypatch.setattr(fig_forces, "picture", lambda *given: seen.append(given) or picture(*given))
     figure = fig_forces.draw(model=results.model(), specimen=results.specimen())
     pulled, pushed, field, spread, *_ = figure.axes
-    for axes, colour, ends in (
-        (pulled, style.ORANGE, [[0.0, 30.0], [3.0, 30.0]]),
-        (pushed, style.BLUE, [[0.0, 30.0], [0.0, 30.0]]),
+    for axes, colour, ends, force in (
+        (pulled, style.ORANGE, [[0.0, 30.0], [3.0, 30.0]], 9 / 7),
+        (pushed, style.BLUE, [[0.0, 30.0], [0.0, 30.0]], 6 / 7),
     ):
         (chains,) = axes.collections
         assert np.asarray(chains.get_segments()) == pytest.approx(np.array([ends]))
-        assert chains.get_linewidth() == [fig_forces.WIDTH]  # of the mean force
+        assert chains.get_linewidth() == pytest.approx([fig_forces.WIDTH * force])
         assert np.allclose(chains.get_color(), to_rgba(colour))
     # speeds 0.5, 0.75, 0 and 0 of the head's, as shades of one map from 0 to 1
     assert seen[0][2] == pytest.approx(matplotlib.colormaps["viridis"]([0.5, 0.75, 0.0, 0.0])[:, :3])
     extent = np.array(field.images[0].get_extent())
     assert np.diff(extent)[::2] == pytest.approx([6.0, 27.0], rel=0.2)  # mm
     assert figure.axes[4].get_xlabel() == "over that of the head"
-    # two of three bonds in tension by the mean force, one in compression, in bins of 0.2
+    # two of three bonds in tension, one in compression, in bins of 0.2 over the mean force
     assert [step.get_label() for step in spread.patches] == ["tension", "compression"]
-    for step, share, colour in zip(spread.patches, (2 / 3, 1 / 3), (style.ORANGE, style.BLUE), strict=True):
+    shares = {1.2: 1 / 3, 0.8: 1 / 3}, {0.8: 1 / 3}
+    for step, share, colour in zip(spread.patches, shares, (style.ORANGE, style.BLUE), strict=True):
         values, edges, _ = step.get_data()
-        assert np.nansum(values) == pytest.approx(share / 0.2)
-        assert edges[int(np.nanargmax(values))] == pytest.approx(1.0) and np.isfinite(values).sum() == 1
-        assert step.get_edgecolor() == to_rgba(colour)
+        told = {round(edges[n], 6): values[n] * 0.2 for n in np.flatnonzero(np.isfinite(values))}
+        assert told == pytest.approx(share) and step.get_edgecolor() == to_rgba(colour)
     assert spread.get_yscale() == "log" and spread.get_xlim() == (0.0, 12.0)
     assert spread.get_xlabel() == "normal force over its mean"
 

@@ -162,7 +162,7 @@ class Results:
         arrays = {
             "basis": deflection.reshape(-1, 1),
             "mass": np.ones(30),
-            "weight": np.repeat([4.0, 2.0, 2.0], 3),
+            "weight": np.repeat([6.0, 2.0, 2.0], 3),
             **{f"operator/{part}": getattr(sparse, part) for part in ("data", "indices", "indptr")},
         }
         save(path := self.folder / "model.h5", "model", arrays, {"name": name})

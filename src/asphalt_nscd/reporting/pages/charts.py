@@ -35,7 +35,6 @@ ElementTree.register_namespace("", "http://www.w3.org/2000/svg")
 SVG, LINK = "{http://www.w3.org/2000/svg}", "{http://www.w3.org/1999/xlink}href"
 BETWEEN = "§"  # the key by which charts find a test, and what is said of it
 WIDTH, HEIGHT = 88.0, 66.0  # mm
-CLEAR = 2.0  # standard errors, below which a difference says little
 HINT = (
     "Point at a test, tap it, or step through the tests with the arrow keys; Home, End and Escape work too."
 )
