@@ -4,7 +4,8 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.reporting.publish import CHECKSUMS, altered, fill_blocks, publish
+from asphalt_nscd.files.store import read_json
+from asphalt_nscd.reporting.publish import CHECKSUMS, RESTS_ON, Sources, altered, fill_blocks, publish, stale
 from asphalt_nscd.reporting.published_tables import shown
 
 
@@ -108,3 +109,25 @@ def test_what_differs_from_the_checksums_is_named(tmp_path):
     assert altered(tmp_path) == [f"{tmp_path / CHECKSUMS}: a line is no checksum, two spaces and a name"]
     (tmp_path / CHECKSUMS).unlink()
     assert altered(tmp_path) == [f"{tmp_path / CHECKSUMS}: is missing"]
+
+
+def test_what_rests_on_other_sources_by_now_is_stale(tmp_path, monkeypatch):
+    """Comments mean nothing, bytes of a file that was read do; what was never noted is told."""
+    root, out = tmp_path / "results", tmp_path / "published/mine"
+    (root / "a").mkdir(parents=True)
+    (table := root / "a/t.csv").write_text("x\n1\n")
+    (read := tmp_path / "read.csv").write_text("1\n")
+    monkeypatch.setattr("asphalt_nscd.files.digests.makers", lambda root: {table: "abc"})
+    rests = Sources(["reporting.settings"], [str(read)])
+    publish([table], root, out, "one", rests)
+    publish([table], root, out, "two", Sources(["reporting.settings"], [str(tmp_path / "none")]))
+    noted = read_json(out / RESTS_ON)
+    assert noted["one"]["files"] == ["a/t.csv"] and noted["one"]["commits"] == ["abc"]
+    assert noted["one"]["digest"] == rests.digest() != "" == noted["two"]["digest"]
+    (tmp_path / "published/bare").mkdir()
+    never = "its sources were never noted"
+    assert stale(tmp_path / "published") == {"publish_bare": never, "two": never}
+    read.write_text("2\n")
+    assert stale(tmp_path / "published")["one"] == "its sources have changed"
+    read.unlink()
+    assert stale(tmp_path / "published")["one"] == "its sources have changed"

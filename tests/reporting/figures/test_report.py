@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.reporting.pages.assemble import Entry, assemble
+from asphalt_nscd.reporting.pages.assemble import Entry, _order, _shown, assemble
 from asphalt_nscd.reporting.pages.first_page import first_page
 
 
@@ -164,3 +164,13 @@ def test_tables_behind_a_figure_are_linked_and_headings_stand_below_the_part(pag
     html = assemble("mine", page(), [entry], tmp_path.glob("*.rst"), tmp_path)
     assert 'Data: <a href="in/a.csv">a.csv</a>, <a href="../b.csv">b.csv</a>' in html
     assert "<h3>One</h3><h4 id='a'>Two</h4>" in html
+
+
+def test_a_broad_picture_is_not_shrunk(tmp_path):
+    """Broader than a thousand pixels, by the header of its PNG."""
+    (tmp_path / "p.rst").write_text("**Fig. 12: p**\n")
+    for width in (1000, 1001):
+        (tmp_path / "p.png").write_bytes(16 * b"x" + width.to_bytes(4, "big"))
+        shown = _shown(Entry("1 Early", tmp_path / "p.png"), tmp_path / "p.rst", tmp_path)
+        assert shown["broad"] == (width > 1000) and shown["order"] == (12, "Fig. 12: p")
+    assert _order("Table 3") == (100, "Table 3")

@@ -20,7 +20,7 @@ def data(tmp_path):
     """Measured 100 MPa and 20 deg at 0 degC, 50 and 40 at 20 degC. The law has 98 and 51."""
     tests = {
         "simulations": "s1,0,3,110,21,98,22,3,90,0.5\ns2,0,3,110,21,98,22,0,90,0.8\ns1,20,3,56,41,51,42,0,90,0.2\n",
-        "facets": "s1,0,3,98,21,98,22,0,60,0.4\ns2,0,3,98,21,98,22,1,60,1.1\ns1,20,3,51,41,51,42,0,60,0.1\n",
+        "facets": "s1,0,3,98,21,98,22,1,60,1.4\ns2,0,3,98,21,98,22,4,80,1.1\ns1,20,3,51,41,51,42,0,60,0.1\n",
         "extended": "s1,0,3,100.5,20,100,20,0,60,0.4\ns1,20,3,50,40,50,40,0,60,0.1\n",
     }
     for name, rows in tests.items():
@@ -87,6 +87,11 @@ def test_the_likeliest_reading_is_a_rung_below_the_paper_as_we_read_it(data):
 def test_fracture_is_counted_for_each_mapping(data):
     table = fracture.make(data["simulations"], data["facets"]).set_index(["mapping", "temperature_C"])
     assert table.loc[("paper", 0), ["tests", "tests_with_broken_bonds", "broken_bonds"]].tolist() == [2, 1, 3]
-    assert table.loc[("facets", 0), ["broken_bonds", "bonds_mean"]].tolist() == [1, 60]
+    assert table.loc[("facets", 0), ["broken_bonds", "most_broken_bonds", "bonds_mean"]].tolist() == [
+        5,
+        4,
+        70,
+    ]
+    assert np.isnan(table.loc[("facets", 0), "largest_utilisation"])
     assert table.loc[("paper", 0), "largest_utilisation"] == 0.8
     assert table.loc[("facets", 20), "tests_with_broken_bonds"] == 0

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
+import pandas as pd
 import pytest
 
 from asphalt_nscd.nscd.bonds.law import BondLaw
+from asphalt_nscd.reporting.tables import time_steps
 from asphalt_nscd.reporting.tables.time_steps import RIGHT, explicit_step, longest_step
 from asphalt_nscd.specimen.system import bending_system
 
@@ -43,3 +47,38 @@ def test_explicit_steps_diverge_just_beyond_the_longest(make_beam):
             x += dt * v
         energy[factor] = np.abs(x).max()
     assert energy[0.98] < 1e-3 < 1.0 < energy[1.02]
+
+
+def test_each_test_stands_beside_its_own_solution(monkeypatch, make_beam):
+    """The sample's is that of its shortest step; 1 % of |E*| or 0.573 degrees is right no more."""
+    keys = {"frequency_Hz": 3.0, "spheres": 9, "steps": 20}
+    tests = {
+        "solved": [
+            keys | {"time_step_s": 4e-4, "E_MPa": 100.9, "phase_deg": 20.0},
+            keys | {"time_step_s": 1e-4, "E_MPa": 100.0, "phase_deg": 20.0},
+            keys | {"time_step_s": 2e-4, "E_MPa": 100.0, "phase_deg": 20.6},
+        ],
+        "part": [keys | {"time_step_s": 1e-4, "E_MPa": 50.0, "phase_deg": 30.0}],
+        "stopped": [
+            keys | {"time_step_s": 1e-4, "tolerance": 1e-3, "E_MPa": 40.0, "phase_deg": 29.0, "sweeps": 70}
+        ],
+    }
+    monkeypatch.setattr(time_steps, "collect", lambda paths: pd.DataFrame(tests[paths[0]]))
+    monkeypatch.setattr(time_steps, "bond_law", lambda law: LAW)
+    monkeypatch.setattr(time_steps, "read_bond_law", lambda path: None)
+    system = bending_system(make_beam(shape=(2, 2, 4)), 0.35, np.inf, 0.0)
+    monkeypatch.setattr(time_steps, "read_model", lambda path: SimpleNamespace(system=system))
+    table = time_steps.make(["solved"], ["part"], ["stopped"], ["law"], ["model"])
+    assert table["scheme"].tolist() == 3 * ["solved"] + [
+        "Gauss-Seidel",
+        "solved, longest",
+        "explicit (DEM), longest",
+    ]
+    assert table["E_over_solution"][:4].to_list() == pytest.approx([1.009, 1.0, 1.0, 0.8])
+    assert table["phase_difference_deg"][:4].to_list() == pytest.approx([0.0, 0.0, 0.6, -1.0])
+    assert table["right"][:4].to_list() == [True, True, False, False]
+    assert table["time_step_s"][:4].to_list() == [4e-4, 1e-4, 2e-4, 1e-4]
+    last = [longest_step(LAW, 6.0 * np.pi), explicit_step(system, 24.3e9)]
+    assert table["time_step_s"][4:].to_list() == pytest.approx(last)
+    assert table["sweeps_per_step"][3] == 3.5 and table["tolerance"][3] == 1e-3
+    assert table[["sweeps_per_step", "tolerance"]][:3].isna().all(axis=None)
