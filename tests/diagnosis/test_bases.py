@@ -89,19 +89,6 @@ def test_a_shift_that_turns_to_arrhenius_where_the_binder_is_glass_is_followed()
     assert np.abs(base.prior(x)[0][-3:]).max() < 2.5  # standard deviations of the bends
 
 
-def test_derivatives_of_the_modulus_are_its_differences():
-    base = FlexibleSpectrum(TIMES, 15.0, 25.0, 15.0, 0.2)
-    x = np.random.default_rng(3).normal(0.0, 0.5, base.parameters) + np.linspace(18.0, 22.0, base.parameters)
-    x[-3:] = np.log(0.12), base.log_odds(0.008), 0.3
-    temperature = np.array([-10.0, 5.0, 15.0, 30.0])
-    omega = 2.0 * np.pi * np.array([0.1, 1.0, 10.0, 30.0])
-    modulus, slope = base.modulus(x, omega, temperature)
-    for k, along in enumerate(slope.T):
-        step = 1e-5 * (np.arange(x.size) == k)
-        up, down = (base.modulus(x + sign * step, omega, temperature)[0] for sign in (1.0, -1.0))
-        np.testing.assert_allclose(along, (up - down) / 2e-5, rtol=1e-6, atol=1e-6 * np.abs(modulus).max())
-
-
 def test_a_bend_acts_below_its_temperature_as_a_square():
     base = FlexibleSpectrum(TIMES, 15.0, 35.0, 25.0, 0.2)
     x, temperature = np.zeros(base.parameters), base.GLASS[1] + np.array([-20.0, -10.0, 0.0, 30.0])
@@ -110,3 +97,38 @@ def test_a_bend_acts_below_its_temperature_as_a_square():
     x[base.times.size + 2] = 1.0
     bend = base.log_shift(x, temperature)[0] - straight
     assert bend == pytest.approx(-0.5 * base.BEND * np.array([400.0, 100.0, 0.0, 0.0]))
+
+
+@pytest.mark.parametrize(
+    ("roughness", "near", "last"), [(0.2, True, 0.02), (0.2, False, 0.2), (0.01, True, 0.01)]
+)
+def test_the_prior_is_how_far_a_law_is_from_usual_mixes(roughness, near, last):
+    """Standard deviations: straight spectrum, static modulus of 1/400, 0.12 decades/K, C2 of 140 K, WLF, no bend."""
+    base = FlexibleSpectrum(TIMES, 15.0, 25.0, 15.0, roughness, ends_straight=near)
+    x = np.random.default_rng(6).normal(0.0, 1.0, base.parameters)
+    strengths, static, bends, (slope, odds, departure) = x[:12], x[12], x[13:16], x[16:]
+    least, most = -1.0 / 25.0, 1.0 / 35.0  # curvatures that are singular 10 K beyond the tests
+    share = (7e-3 - least) / (most - least)
+    per_odds = (most - least) * share * (1.0 - share)
+    usual = np.log(share / (1.0 - share))
+    expected = [
+        *np.diff(strengths, 2) / np.repeat([roughness, last], 5),
+        (static - np.log(np.exp(strengths).sum()) + 6.0) / 3.0,
+        slope - np.log(0.12),
+        (odds - usual) * per_odds / 5e-3,
+        departure / 0.2,
+        *bends,
+    ]
+    found, rows = base.prior(x)
+    assert found == pytest.approx(expected)
+    of_shift = np.zeros((6, 6))  # its rows begin with the slope's, its columns with the bends
+    of_shift[[0, 1, 2], [3, 4, 5]] = 1.0, per_odds / 5e-3, 5.0
+    of_shift[3:, :3] = np.eye(3)
+    assert rows[11:, -6:] == pytest.approx(of_shift) and not rows[:11, -6:].any()
+
+
+def test_a_curvature_is_begun_well_within_its_bounds():
+    base = FlexibleSpectrum(TIMES, 15.0, 25.0, 15.0, 0.2)
+    width = 1.0 / 35.0 + 1.0 / 25.0
+    for curvature, share in ((-1.0, 0.1), (1.0, 0.9), (0.5 * width - 0.04, 0.5)):
+        assert base.log_odds(curvature) == pytest.approx(np.log(share / (1.0 - share)), abs=1e-9)

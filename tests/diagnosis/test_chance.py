@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,6 +11,7 @@ from scipy import stats
 
 from asphalt_nscd.diagnosis.model import chance
 from asphalt_nscd.diagnosis.model.chance import Scores
+from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.search import ladder
 
 N, P, K = 15, 6, 4  # tests, parameters of the law, directions
@@ -128,6 +130,55 @@ def test_chance_of_a_score_is_the_share_of_draws_and_beyond_them_falls_like_the_
     few = stats.halfnorm.ppf((np.arange(500) + 0.5) / 500)
     for share in (0.022, 0.018, 0.012, 0.004):  # eleven draws, and where the tail takes over
         assert chance.tail(few, stats.norm.isf(share / 2.0)) == pytest.approx(share, rel=0.05)
+
+
+def test_nameless_patterns_are_what_their_names_say():
+    grid = np.array([(s, t, f) for s in (0, 1) for t in (0.0, 30.0) for f in (1.0, 4.0)])
+    specimen, t, f = grid.T
+    table = Observations(
+        specimen.astype(int),
+        ("A", "B"),
+        t,
+        f,
+        np.ones(8) + 0j,
+        np.ones(8),
+        np.zeros(8),
+        order=np.arange(1.0, 9.0),
+    )
+    found = {one.name: one.direction for one in chance.structures(table)}
+    above, log_f = t - 15.0, np.log(f) - np.log(2.0)
+    expected = {
+        "slope over frequency": log_f,
+        "slope over temperature": above,
+        "bend over frequency": log_f**2,
+        "bend over temperature": above**2,
+        "slope over frequency growing with temperature": log_f * above,
+        "slope over frequency in warm tests": log_f * (t == 30.0) * 15.0,
+        "warm tests": (t == 30.0) * 15.0,
+        "1 Hz": f == 1.0,
+        "4 Hz": f == 4.0,
+        "above 1 Hz": f == 4.0,
+        "0 degC": t == 0.0,
+        "30 degC": t == 30.0,
+        "0 degC, slope over frequency": log_f * (t == 0.0),
+        "30 degC, slope over frequency": log_f * (t == 30.0),
+        **{f"{a:g} degC, {b:g} Hz": (t == a) & (f == b) for a in (0.0, 30.0) for b in (1.0, 4.0)},
+        "course of the tests": np.arange(8) - 3.5,
+    }
+    for k, name in enumerate(("specimen A", "specimen B")):
+        of = specimen == k
+        expected |= {name: of, f"{name}, slope over frequency": of * log_f}
+        expected |= {f"{name}, slope over temperature": of * above}
+    assert set(found) == {f"{name}, {part}" for name in expected for part in ("modulus", "phase")}
+    for name, pattern in expected.items():
+        assert found[f"{name}, modulus"] == pytest.approx(pattern.astype(complex)), name
+        assert found[f"{name}, phase"] == pytest.approx(1j * pattern), name
+    course = [
+        one
+        for one in chance.structures(replace(table, cycles=np.repeat([0.0, 1e4], 4)))
+        if "course" in one.name
+    ]
+    assert course[0].direction == pytest.approx(np.repeat([-5e3 + 0j, 5e3], 4))
 
 
 # two specimens at three frequencies, each test twice; freedom of the scatter

@@ -58,3 +58,18 @@ def test_a_table_of_copies_alone_is_refused():
     )
     with pytest.raises(InputError, match="copies are not replicates"):
         copies.refuse_copies(twice)
+
+
+@pytest.mark.parametrize(
+    ("same", "own", "refused"), [(4, 3, True), (3, 3, False), (2, 0, False), (3, 0, True)]
+)
+def test_of_two_campaigns_one_may_not_be_most_of_the_other(same, own, refused):
+    """More than half of the smaller, three tests at least."""
+    observed = campaign()
+    modulus = observed.modulus[: same + own] * np.where(np.arange(same + own) < same, 1.0, 1.01)
+    both = {"a": observed, "b": replace(observed.subset(np.arange(same + own)), modulus=modulus)}
+    if refused:
+        with pytest.raises(InputError, match=f"a and b hold the same {same} tests"):
+            copies.refuse_copied_campaign(both)
+    else:
+        copies.refuse_copied_campaign(both)

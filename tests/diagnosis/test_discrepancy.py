@@ -76,6 +76,55 @@ def test_shares_of_a_process_make_its_unit_variance():
         assert root @ root.T == pytest.approx(expected, abs=1e-12)
 
 
+def test_what_a_specimen_has_of_its_own_changes_over_three_of_ln_f_and_half_of_the_temperatures():
+    """Half of its variance is the same in all of its tests; of the other specimen it reaches none."""
+    grid = np.array([(s, t, f) for s in (0, 1) for t in (0.0, 10.0, 40.0) for f in (1.0, np.exp(1.5))])
+    table = Observations(
+        grid[:, 0].astype(int),
+        ("A", "B"),
+        grid[:, 1],
+        grid[:, 2],
+        np.ones(12) + 0j,
+        np.ones(12),
+        np.zeros(12),
+    )
+    (_, *of_one), (_, *of_other) = (one for one in discrepancy._kernels(table) if one[0].kind == "specimen")
+    root = discrepancy.factor_of(*of_one, 1e-12)
+    away = ((np.log(grid[:6, 2, None]) - np.log(grid[:6, 2])) / 3.0) ** 2
+    away += ((grid[:6, 1, None] - grid[:6, 1]) / 20.0) ** 2
+    assert root[:6] @ root[:6].T == pytest.approx(0.5 + 0.5 * np.exp(-0.5 * away), abs=1e-12)
+    assert not root[6:].any() and not discrepancy.factor_of(*of_other, 1e-12)[:6].any()
+
+
+def test_sizes_are_in_units_of_the_scatter_and_a_spectrum_moves_both_parts():
+    """Of a law of which a relative change of each element by one moves ln E* by its share of the modulus."""
+    table = Observations(
+        np.repeat([0, 1], 4), ("A", "B"), np.tile([0.0, 0.0, 20.0, 20.0], 2), np.tile([1.0, 9.0], 4),
+        np.ones(8) + 0j, np.ones(8), np.zeros(8),
+    )  # fmt: skip
+    random = np.random.default_rng(3)
+    shares = random.random((8, 6)) + 1j * random.random((8, 6))
+    times = np.geomspace(1e-3, 1e2, 6)
+    base = SimpleNamespace(modulus=lambda *_: (np.full(8, 2.0 + 0j), np.hstack([2.0 * shares, shares])))
+    joint = SimpleNamespace(
+        observed=table, base=base, spectrum=SimpleNamespace(times=times),
+        noise=SimpleNamespace(sigma=(0.02, 0.005), whiten=lambda x: np.vstack([x.real, x.imag])),
+    )  # fmt: skip
+    found = discrepancy.processes(joint, SimpleNamespace(law=None))
+    roots = {(one.kind, one.part, one.specimen): root for one, root in zip(found.described, found.roots)}
+    apart = np.log(times)[:, None] - np.log(times)
+    expected = 0.02**2 * shares @ np.exp(-0.5 * (apart / 4.0) ** 2) @ shares.conj().T
+    expected *= (table.specimen == 1)[:, None] & (table.specimen == 1)
+    spectrum = roots["spectrum", "both", "B"]
+    assert spectrum @ spectrum.conj().T == pytest.approx(expected, abs=0.02 * np.abs(expected).max())
+    of_modulus, of_phase = (roots["all", part, None] for part in ("modulus", "phase"))
+    assert (of_modulus**2).sum(axis=1) == pytest.approx(np.full(8, 0.02**2 * 0.75), rel=1e-3)
+    assert of_phase == pytest.approx(0.25j * of_modulus)
+    usual = {(one.kind, one.part): size for one, size in zip(found.described, found.usual)}
+    assert usual["isotherm", "phase"] == 0.5 and usual["all", "modulus"] == 0.1
+    assert usual["specimen", "modulus"] == 0.3 and usual["spectrum", "both"] == 1.0
+
+
 def small(random) -> tuple[Reduced, Direction]:
     """A model of four processes and one cause, and data that hold both."""
     u, d, y = (random.standard_normal((40, k)) for k in (COLUMNS, 1, 1))

@@ -120,30 +120,6 @@ def test_a_parameter_at_its_bound_is_no_estimate():
     assert reason == "Its offset stands at the bound of 30 deg"
 
 
-def test_a_fault_of_most_specimens_is_no_fault_of_one():
-    observed = table()
-    clamp = CAUSES["specimen_geometry"]
-    shift = np.where(observed.specimen == 0, 1.3, np.where(observed.specimen == 1, 0.75, 1.0))
-    observed = replace(observed, modulus=shift * observed.modulus)
-    both = [Candidate(clamp, name, (0.0,)) for name in "AB"]
-    found = doubts_of(observed, *both)
-    assert all("2 of 3 specimens" in reasons[0] for reasons in found.values()) and len(found) == 2
-
-
-def test_one_isotherm_after_another_is_no_error_of_one_bath():
-    def bent(omega, temperature):  # what a shift off WLF does to ln a_T
-        return 0.35 * np.interp(temperature, [-10.0, 4.0, 21.0, 37.0, 54.0], [2.5, 1.0, 0.0, 1.0, -2.0]) + 0j
-
-    bias = CAUSES["temperature_bias"]
-    named = [Candidate(bias, place, (0.0,)) for place in (-10.0, 4.0, 37.0)]
-    found = doubts_of(table(bent), *named)
-    reason = "It is named at 3 isotherms: a shift with temperature that is not of WLF's form looks the same"
-    assert len(found) == 3 and all(reason in reasons for reasons in found.values())
-    assert not any(
-        "isotherms: a shift" in r for rs in doubts_of(table(bent), *named[:2]).values() for r in rs
-    )
-
-
 @pytest.mark.parametrize("mass,doubted", [(-0.4, True), (-0.2, False), (0.4, False)])
 def test_no_less_than_nothing_moves(mass, doubted):
     observed = table()

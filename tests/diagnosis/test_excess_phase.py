@@ -11,6 +11,7 @@ from attack.mixes import LAWS, SHIFTS, Mix
 from asphalt_nscd.diagnosis.observed import scatter
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
+from asphalt_nscd.diagnosis.screening import excess_phase
 from asphalt_nscd.diagnosis.screening.excess_phase import excess_phases
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -93,3 +94,46 @@ def test_nine_measured_states_show_what_a_difference_of_three_tests_shows():
     assert means == pytest.approx([0.59, 1.74, 2.0], abs=0.35)
     told = "{:.1f}, {:.1f} and {:.1f} degrees at 4, 20 and 40 degC".format(*means)
     assert told in " ".join((ROOT / "docs/machine.md").read_text(encoding="utf-8").split())
+
+
+def alike(excess, law, single, each):
+    return excess_phase._Alike(excess, law, single, np.array(each))
+
+
+def test_what_lies_outside_the_band_is_one_unknown_of_all_specimens():
+    """Two sets of frequencies, of two specimens and of one: their own chance is independent, the law is not."""
+    sets = [alike(0.02, 4e-6, 2e-6, [0.01, 0.03]), alike(0.05, 1e-6, 6e-6, [0.05])]
+    weight = 1.0 / np.array([4e-6 + 3.0 * 1e-6, 1e-6 + 3.0 * 6e-6])
+    share = weight / weight.sum()
+    variance = (share @ [2e-3, 1e-3]) ** 2 + share**2 @ [3e-6, 18e-6]
+    expected = share @ [0.02, 0.05], np.sqrt(variance)
+    assert excess_phase._combined(sets, 3.0) == pytest.approx(expected)
+
+
+def test_specimens_say_how_far_their_excesses_scatter():
+    """The mean of a factor over its prior and what specimens say of it, by a sum over a finer grid."""
+    temperature = np.array([0.0, 30.0, 40.0])
+    each = [[0.01, 0.03, 0.02], [0.00, 0.06, 0.02], [0.05]]
+    sets = [[alike(0.0, 0.0, 1e-4, one)] for one in each]
+    node = np.linspace(-3.0, 3.0, 121)
+    size, growth = (grid.ravel() for grid in np.meshgrid(0.7 * node, 1.0 + 0.7 * node, indexing="ij"))
+    evidence = -0.5 * ((size / 0.7) ** 2 + ((growth - 1.0) / 0.7) ** 2)
+    factors = [np.exp(2.0 * (size + growth * place)) for place in (-0.5, 0.25, 0.5)]
+    for one, factor in zip(each, factors, strict=True):
+        squares = np.var(one) * len(one) / 1e-4
+        evidence -= 0.5 * ((len(one) - 1) * np.log(factor) + squares / factor)
+    share = np.exp(evidence - evidence.max())
+    expected = [share @ factor / share.sum() for factor in factors]
+    assert excess_phase._wider(temperature, sets) == pytest.approx(expected, rel=0.02)
+    flat = excess_phase._wider(np.array([20.0]), [sets[2]])  # one specimen of one isotherm says nothing
+    assert flat == pytest.approx(np.exp(2.0 * 0.7**2), rel=0.05)  # of a prior to three deviations
+
+
+@pytest.mark.parametrize(
+    ("z", "shown"),
+    [((0.0, 3.1), True), ((2.9, 2.9), False), ((3.1, -3.1), False), ((-3.1, 3.1), True), ((3.1, 0.0), True)],
+)
+def test_an_excess_speaks_unless_a_warmer_isotherm_turns_about(z, shown, monkeypatch):
+    each = [excess_phase.ExcessPhase(10.0 * k, 0.01 * one, 0.01) for k, one in enumerate(z)]
+    monkeypatch.setattr(excess_phase, "excess_phases", lambda *_: each)
+    assert excess_phase.shows_excess(None, None) is shown

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from test_not_linear import NCAT, table
+from test_not_linear import NCAT
 
 from asphalt_nscd.api.tables import campaign_in
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
@@ -45,8 +45,3 @@ def test_what_is_open_has_a_law_for_each_explanation():
         for one in told
     ]
     assert max(phases) == phases[alone.index([])] > min(phases) + np.radians(0.3)
-
-
-def test_what_is_sure_leaves_one_explanation():
-    (only,) = diagnose(table(0.0, 0.0, 2.0), draws=500).hypotheses
-    assert only.probability == 1.0 and [one.cause.name for one in only.causes] == ["phase_offset"]

@@ -13,9 +13,9 @@ from asphalt_nscd.diagnosis.causes.temperature_bias import TemperatureBias
 from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests import choice, fixed_orders
-from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, possible
-from asphalt_nscd.diagnosis.next_tests.information import Inquiry, Knowledge, Question
-from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep, noise_of
+from asphalt_nscd.diagnosis.next_tests.further_tests import possible
+from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Question
+from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.record import instructions
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis, diagnose
@@ -75,52 +75,6 @@ def test_a_named_delay_is_to_be_confirmed_on_metal_at_the_highest_frequency(dela
     assert len(orders) <= 5
 
 
-@pytest.fixture(scope="module")
-def many_orders(delayed):
-    """However little an order may tell."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(choice, "LEAST", 1e-9)
-        patch.setattr(choice, "MOST", 40)
-        patch.setattr(instructions, "MOST", 40)
-        return instructions.instructions(delayed)["orders"]
-
-
-def test_metal_is_ordered_once_and_each_order_says_why(many_orders):
-    """Once several sweeps of metal came, and orders without a reason."""
-    assert sum(one["specimens"] == [METAL] for one in many_orders) == 1
-    assert all(one["why"] for one in many_orders)
-
-
-@pytest.mark.parametrize("column", ["order", "cycles"])
-def test_a_specimen_that_was_worn_is_asked_for_further_tests(column):
-    """A cause that follows the course of the tests; a new specimen has borne none."""
-    worn = few(table(3), -10.0, 10.0, 30.0)
-    course = 1.0 + np.random.default_rng(5).permutation(worn.size)
-    worn = replace(worn, **{column: course})
-    loss = 0.3 * (course - 1.0) / (worn.size - 1.0)
-    found = diagnose(replace(worn, modulus=worn.modulus * (1.0 - loss)), draws=1000)
-    assert [rung.candidate.cause.name for rung in found.ladder.rungs] == ["damage"]
-    asked = possible(found, Costs()).table
-    course = getattr(asked, column)[found.observed.size :]
-    new = asked.specimen[found.observed.size :] == len(found.observed.names)
-    assert (course[new] == 1.0).all() and (course[~new] > 1.0).all()
-    assert instructions.instructions(found)["orders"]
-
-
-def test_orders_come_by_gain_per_hour_and_dear_ones_later(delayed):
-    free, dear = (
-        [
-            one["temperature_C"]
-            for one in instructions.instructions(delayed, costs)["orders"]
-            if one["temperature_C"]
-        ]
-        for costs in (Costs(room=(-50.0, 99.0)), Costs(conditioning=200.0))
-    )
-    assert not 15.0 <= free[0] <= 25.0 and 15.0 <= dear[0] <= 25.0
-    hours = Costs().hours("a", 4.0, [0.1, 10.0])
-    assert hours == pytest.approx(0.5 + 2.0 + (200.0 + 2.0) / 3600.0 + 2.0 / 60.0)
-
-
 def why(kind, about, other, strengths, later=False, **then):
     """Reasons that an order at 20 degC gives for one question."""
     one = order_words.Open(kind, None, about, other, **then)
@@ -136,39 +90,6 @@ def test_a_cause_that_looks_the_same_is_told_where_a_test_would_decide(before, a
     assert [one.endswith("This test should decide.") for one in told] == [True] * said
     less = why("apart", "channel delay", "phase offset", (before, 13.0), alike=alike)
     assert not said or less[0].endswith("This test should make it clearer.")
-
-
-def departure(kind, **where):
-    return Departure(kind, np.zeros(1, complex), **where)
-
-
-def repeated(frequency):
-    """Whether a test of specimen a at 4 degC repeats itself."""
-    where = departure("repeat", specimen="a", isotherm=4.0, frequency=frequency)
-    return order_words.Open("repeat", None, f"specimen a at 4 degC, {frequency:g} Hz", departure=where)
-
-
-def test_a_test_at_another_temperature_repeats_nothing():
-    asked = [repeated(25.0)]
-    for temperature, reasons in ((4.0, 1), (-6.0, 0)):
-        sweep = Sweep("a", temperature, (10.0, 25.0), False, None, 1.0)
-        order = choice.Order(sweep, ["a"], 1.0, 1.0, {0: (0.0, 1.0)})
-        assert len(order_words.reasons(order, asked, order_words.Context())) == reasons
-
-
-def test_a_test_that_cannot_be_used_is_to_be_repeated():
-    observed = table(4)
-    row = int(
-        np.flatnonzero((observed.specimen == 1) & (observed.isotherm == 0) & (observed.frequency == 10))[0]
-    )
-    modulus = observed.modulus.copy()
-    modulus[row] *= np.exp(1j * np.radians(6.0))
-    found = diagnose(replace(observed, modulus=modulus), draws=1000)
-    assert [one.row for one in found.suspects if not one.used] == [row]
-    orders = instructions.instructions(found)["orders"]
-    repeated = [one for one in orders if any("b at 0 degC, 10 Hz contradicts" in why for why in one["why"])]
-    assert [(one["specimens"], one["temperature_C"]) for one in repeated] == [(["b"], 0.0)]
-    assert 10.0 in repeated[0]["frequencies_Hz"] and not repeated[0]["half_strain"]
 
 
 def test_an_odd_isotherm_is_to_be_tested_again():
@@ -233,20 +154,6 @@ def test_places_of_one_cause_are_told_together():
     ((about, places, now, then),) = order_words.reached(helped)
     assert about == "a bias" and order_words.spelled_places(places) == " at 4, 20 or 50 degC"
     assert (order_words.chances(now), order_words.chances(then)) == ("0 to 24 %", "90 to 100 %")
-
-
-def test_whole_sweeps_are_ordered(delayed):
-    """A part of the band saves minutes beside hours of conditioning."""
-    tested = tuple(delayed.observed.frequencies)
-    bands = {s.frequencies for s in possible(delayed, Costs()).sweeps if s.specimen != METAL}
-    assert tested in bands and all(band[-len(tested) :] == tested for band in bands)
-
-
-def test_metal_is_tested_at_two_frequencies_or_more(delayed):
-    model = possible(delayed, Costs())
-    bands = [sweep.frequencies for sweep in model.sweeps if sweep.specimen == METAL]
-    tested = delayed.observed.frequencies
-    assert bands and all({tested[0], tested[-1]} <= set(band) for band in bands)
 
 
 def test_of_three_temperatures_the_last_order_is_a_fourth():
@@ -336,29 +243,6 @@ def test_metal_is_ordered_at_both_ends_of_the_band_where_phases_lie_on_one_side(
     assert told[0] == order and len(told) <= instructions.MOST
 
 
-def test_a_sweep_to_come_is_one_mounting(empty):
-    model = possible(empty, Costs())
-    done, noise = empty.observed.size, empty.noise
-    block = noise_of(noise, empty.observed, model.table).block
-    usual = [one for one in model.sweeps if one.specimen != METAL and not one.half_strain]
-    halved = next(one for one in model.sweeps if one.half_strain)
-    assert all(np.unique(block[one.tested.rows]).size == 1 for one in (*usual, halved))
-    whole = {block[one.tested.rows[0]] for one in usual}
-    assert len(whole) == len({(one.specimen, one.temperature) for one in usual})
-    assert block[halved.tested.rows[0]] not in whole
-    assert block[done:].min() > block[:done].max()
-
-
-def test_of_sweeps_that_tell_the_same_the_first_is_taken_whatever_the_rounding(empty, monkeypatch):
-    model, gains = possible(empty, Costs()), Inquiry.gains
-    halved = next(one for one in model.sweeps if one.half_strain)
-    alike = replace(model, sweeps=tuple(replace(halved, specimen=name) for name in ("a", "b")))
-    monkeypatch.setattr(Inquiry, "gains", lambda *asked: gains(*asked) * np.array([[1.0], [1.0 + 1e-9]]))
-    asked = instructions.open_questions(empty, alike)
-    (order, *_) = choice.choose(alike, [one.question for one in asked], [one.kind for one in asked])
-    assert order.specimens[0] == "a"
-
-
 def test_an_isotherm_off_its_target_is_tested_again_first():
     off = [{"specimen": name, "temperature_C": 20.0, "measured_C": 20.7} for name in "ac"]
     (order,) = fixed_orders.off_target(table(3), Costs(), off)
@@ -381,21 +265,6 @@ def test_orders_know_the_copies(delayed):
     found = diagnose(replace(observed, modulus=modulus), draws=500)
     again = [one for one in possible(found, Costs()).departures if one.kind == "repeat"]
     assert len(again) == 2 * rows[0].size and all(one.copied for one in again)
-
-
-@pytest.mark.parametrize(
-    ("test_type", "excess", "asked"),
-    [("tension-compression", 1.5, 1), ("bending", 1.5, 0), ("tension-compression", 0.5, 0)],
-)
-def test_two_strains_are_asked_for_where_a_haversine_has_an_excess_phase(test_type, excess, asked):
-    done = replace(table(4), test_type=test_type)
-    at = float(done.isotherms[1])
-    found = [{"temperature_C": at, "excess_deg": excess, "standard_error_deg": 0.3}]
-    orders = fixed_orders.strains(done, Costs(), found)
-    assert [(order["temperature_C"], order["specimens"]) for order in orders] == asked * [
-        (at, [done.names[0]])
-    ]
-    assert all("25 and 75 microstrain" in order["act"] for order in orders)
 
 
 def test_a_specimen_may_be_called_anything():

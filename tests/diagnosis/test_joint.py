@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.optimize import minimize
-from scipy.stats import chi2
+from scipy.stats import chi2, f
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.model import start
 from asphalt_nscd.diagnosis.model.joint import Candidate, Joint
 from asphalt_nscd.diagnosis.observed import scatter
-from asphalt_nscd.diagnosis.observed.noise import Noise
 from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.search import diagnose as chain
 from asphalt_nscd.diagnosis.search.diagnose import misfit_p_value
 from asphalt_nscd.rheology.parabolic import HuetSayegh
 from asphalt_nscd.rheology.shift import WLF
@@ -147,33 +148,6 @@ def test_what_is_left_out_is_predicted_by_the_others(table, fit):
     assert np.abs(off - np.array([-0.05, 0.0, 0.08])).max() < 0.03  # as if they had not been spoilt
 
 
-def test_the_noise_of_some_rows_is_that_part_of_the_whole(table):
-    noise = scatter.stated(table, 0.01, 0.004, 0.03)
-    shared = replace(noise, shared=np.tile([[0.02], [0.001]], table.size))
-    same = shared.block[:, None] == shared.block
-    rows = np.array([0, 1, 5, 20, 21, 40])
-    values = np.random.default_rng(0).standard_normal((rows.size, 2)) + 0j
-    white = shared.subset(rows).whiten(values)
-    dense = (1e-4 * np.eye(table.size) + 4e-4 * same)[np.ix_(rows, rows)]
-    assert white.T @ white == pytest.approx(values.real.T @ np.linalg.solve(dense, values.real), rel=1e-9)
-
-
-def test_noise_with_a_discrepancy_is_that_of_the_dense_covariance():
-    """The squares of whitened values, and the determinant, of one block with a common share and two processes."""
-    random = np.random.default_rng(3)
-    n = 5
-    within, shared = np.full((2, n), 0.02), np.full((2, n), 0.03)
-    factor = 0.1 * random.standard_normal((2 * n, 2))
-    noise = Noise(within, shared, np.zeros(n, int), (0.02, 0.02), 0.1, 9, factor)
-    values = random.standard_normal(n) + 1j * random.standard_normal(n)
-    own = np.kron(np.eye(2), 0.02**2 * np.eye(n) + 0.03**2)
-    covariance = own + factor @ factor.T
-    stacked = np.concatenate([values.real, values.imag])
-    white = noise.whiten(values)
-    assert white @ white == pytest.approx(stacked @ np.linalg.solve(covariance, stacked), rel=1e-9)
-    assert noise.log_determinant == pytest.approx(np.linalg.slogdet(covariance)[1], rel=1e-9)
-
-
 def test_a_stated_scatter_judges_the_misfit_by_chi_squared(fit):
     """96 values, of which the law and the scales take up what the hat matrix says."""
     joint, fitted = fit
@@ -183,3 +157,80 @@ def test_a_stated_scatter_judges_the_misfit_by_chi_squared(fit):
     assert misfit_p_value(fitted, joint.noise) == pytest.approx(
         left.sf(fitted.residual @ fitted.residual), rel=1e-9
     )
+
+
+HALF_USED = SimpleNamespace(  # ten directions, each of them half held by a prior: five parameters
+    residual=np.full(40, 1.2), jacobian=np.eye(40)[:, :10], precision=2.0 * np.eye(10)
+)
+
+
+@pytest.mark.parametrize("freedom", [12, 15])
+def test_replicates_judge_the_misfit_by_fisher_s_f(freedom):
+    """57.6 of 40 values, of which pure error has its freedom, and the law five."""
+    lack = 40 - 5 - freedom
+    expected = f(lack, freedom).sf((57.6 - freedom) / lack)
+    assert misfit_p_value(HALF_USED, SimpleNamespace(freedom=freedom)) == pytest.approx(expected)
+    assert misfit_p_value(HALF_USED, SimpleNamespace(freedom=35)) == 1.0
+
+
+def test_a_law_pays_the_logarithm_of_the_tests_for_each_parameter():
+    assert chain._information(HALF_USED) == pytest.approx(57.6 + 5.0 * np.log(40.0))
+
+
+def test_a_scatter_by_residuals_counts_what_the_law_has_used():
+    """Of twenty moduli the law has used five, of twenty phases none."""
+    (modulus, phase), freedom = chain._residual_scatter(HALF_USED, (0.02, 0.01))
+    assert modulus == pytest.approx(0.02 * 1.2 * np.sqrt(20.0 / 15.0)) and phase == pytest.approx(0.01 * 1.2)
+    assert freedom == 35
+    assert chain._residual_scatter(HALF_USED, (1e-5, 1e-5))[0] == (1e-4, 1e-4)
+
+
+def test_residuals_of_a_condition_are_means_over_the_scatter_of_a_mean():
+    left = np.array([0.02 + 0.01j, 0.04 - 0.01j, 0.0 + 0.03j, 0.01, 0.01, 0.01, 0.01])
+    observed = SimpleNamespace(cell=np.array([0, 0, 1, 2, 2, 2, 2]), logarithm=5.0 + left)
+    found = SimpleNamespace(
+        observed=observed,
+        ladder=SimpleNamespace(fitted=SimpleNamespace(modelled=5.0)),
+        noise=SimpleNamespace(sigma=(0.01, 0.005)),
+    )
+    mean, z = chain.cell_residuals(found)
+    assert mean == pytest.approx([0.03, 0.03j, 0.01])
+    assert z == pytest.approx([3.0 * np.sqrt(2.0), 6.0, 1.0 * 2.0])
+
+
+@pytest.mark.parametrize(
+    ("remaining", "law", "replicated", "doubts", "rungs", "spectrum", "verdict"),
+    [
+        (0.0024, 0.5, True, {}, [1], True, "unexplained_structure"),
+        (0.0026, 0.5, True, {}, [1], False, "explained"),
+        (0.5, 0.0024, True, {}, [], True, "unexplained_structure"),
+        (0.5, 0.0026, True, {}, [], True, "explained"),
+        (0.5, 0.0024, False, {}, [], True, "explained"),
+        (None, 0.5, True, {"x": []}, [1], True, "unexplained_structure"),
+        (None, 0.5, True, {}, [], False, "nothing_to_explain"),
+    ],
+)
+def test_either_of_two_tests_at_half_the_chance_leaves_something_unexplained(
+    remaining, law, replicated, doubts, rungs, spectrum, verdict
+):
+    left = None if remaining is None else SimpleNamespace(p_value=remaining)
+    found = SimpleNamespace(
+        ladder=SimpleNamespace(remaining=left, rungs=rungs), replicated=replicated, law_p=law, doubts=doubts,
+        relaxation_spectrum=spectrum,
+    )  # fmt: skip
+    assert chain._verdict(found) == verdict
+
+
+@pytest.mark.parametrize(
+    ("replicated", "frequencies", "isotherms", "said"),
+    [
+        (False, 5, 5, "nothing was repeated"),
+        (True, 2, 5, "two freq"),
+        (True, 3, 3, "fewer than 4"),
+        (True, 3, 4, ""),
+    ],
+)
+def test_what_lacks_to_tell_a_cause_for_sure(replicated, frequencies, isotherms, said):
+    observed = SimpleNamespace(frequencies=np.zeros(frequencies), isotherms=np.zeros(isotherms))
+    found = chain._too_few(SimpleNamespace(observed=observed, replicated=replicated))
+    assert found.startswith(said) and bool(found) == bool(said)

@@ -67,12 +67,6 @@ def test_scale_of_the_modulus_changes_no_phase():
     )
 
 
-def test_less_exact_moduli_tell_less_of_the_phase():
-    logarithm = np.log(np.abs(response(LAWS["2S2P1D"], 15.0)))
-    exact, noisy = (required_phase(FREQUENCY, logarithm, scatter).std_error for scatter in (1e-3, 0.03))
-    assert (noisy > exact).all()
-
-
 def test_covariances_are_those_of_modulus_and_phase():
     for covariance in covariances(FREQUENCY):
         assert covariance == pytest.approx(covariance.T)

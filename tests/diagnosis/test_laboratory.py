@@ -107,14 +107,6 @@ def test_sizes_follow_the_table(kind):
     )  # drawn to the usual size by its prior
 
 
-def test_what_a_cause_has_enlarged_is_usual_again_and_what_is_small_stays():
-    found = still().model.processes
-    everyday, usual = laboratory.is_everyday(found), found.usual**2
-    large, small = (fit_beside.lean(found, factor * usual) for factor in (9.0, 0.25))
-    assert (large == np.where(everyday, usual, 9.0 * usual)).all() and (small == 0.25 * usual).all()
-    assert everyday.any() and not everyday.all()
-
-
 @pytest.mark.parametrize("few", [False, True])
 def test_what_reaches_one_isotherm_alone_has_its_number(few):
     """Also where two tests of the last isotherm are left, of two specimens that another one has each."""
@@ -184,6 +176,13 @@ def test_a_laboratory_that_holds_its_specimens_alike_holds_its_isotherms():
     careful = sizes(still())
     assert careful["isotherm temperature"] < 0.08
     assert 0.08 < careless["isotherm temperature"] < 0.4
+
+
+def test_one_control_holds_isotherms_and_specimens():
+    """Logarithms of both sizes spread by 1 and 0.7 and go together by 0.7; the usual is one."""
+    for of_specimens in (1.0, 0.5, 3.0):
+        size, spread = laboratory._same_control(of_specimens**2)
+        assert size == pytest.approx(of_specimens) and spread == pytest.approx(np.sqrt(1.0 - 0.49))
 
 
 def test_a_typical_variance_is_that_of_the_posterior():

@@ -70,32 +70,6 @@ def test_two_specimens_that_are_off_by_inverse_factors_are_told_exchanged(other,
     )
 
 
-def test_a_possible_cause_is_in_the_mix_by_its_probability(exports, monkeypatch):
-    """Established, the delay is off every hypothesis; at 0.7 the mix is the mean with it and without."""
-    found = diagnose(exports, draws=FEW)
-    (rung,), every = found.ladder.rungs, np.ones(found.observed.size, bool)
-    at = 2.0 * np.pi * np.array([0.1, 25.0]), np.array([20.0, 20.0])
-    sure = mixture(found, every)
-    assert found.established(rung) and len(sure.hypotheses) == 1
-    assert np.degrees(sure.effect(found.observed).imag).max() == pytest.approx(7.1, abs=0.1)
-    found.too_few = "two frequencies show no curvature"
-    monkeypatch.setattr(type(found), "probability", lambda *_: 0.7)
-    del found.hypotheses
-    open_to_doubt = mixture(found, every)
-    assert open_to_doubt.weights == pytest.approx([0.7, 0.3])
-    assert np.degrees(open_to_doubt.effect(found.observed).imag).max() == pytest.approx(0.7 * 7.1, abs=0.1)
-    values, errors = open_to_doubt.parts(*at)
-    assert values[0] == pytest.approx(sure.parts(*at)[0][0])
-    # Without the delay its phases are structure without a name, and the mix is known less well.
-    assert (errors.imag[1] > 1.08 * errors.imag[0]).all()
-    within = 0.7 * errors.imag[0] ** 2 + 0.3 * errors.imag[1] ** 2
-    between = 0.7 * 0.3 * (values.imag[0] - values.imag[1]) ** 2
-    assert np.diag(open_to_doubt.covariance(*at))[2:] == pytest.approx(within + between)
-    low, high = open_to_doubt.interval_95(values, errors)
-    # Both hold how far the specimens lie apart, which leaves less of it.
-    assert (high - low).imag[1] > 1.05 * np.subtract(*sure.interval_95(*sure.parts(*at))[::-1]).imag[1]
-
-
 def test_every_test_has_one_status(exports):
     odd = {"specimen": "Mix-B", "temperature_C": 35.0, "factor": 0.7}
     at = (exports.specimen == 1) & (exports.isotherm == 35)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -118,3 +119,34 @@ def test_causes_are_alike_if_three_limits_do_not_part_them():
         assert bool(limits._alike([one, other], np.array([[1.0, r], [r, 1.0]]))) is alike
     same = [one, replace(one, values=(1.0,))]
     assert limits._alike(same, np.ones((2, 2))) == []
+
+
+def test_a_fault_of_one_place_is_told_from_what_its_odds_need(monkeypatch):
+    """Beyond four standard errors, or where half of z squared outweighs the odds against it, in 19 of 20 cases."""
+    angle = Candidate(CAUSES["phase_offset"], None, (0.0,))
+    survey = SimpleNamespace(candidates=[angle] * 3, pointing=None)
+    state = SimpleNamespace(model=None, variances=None, plain=SimpleNamespace(observed=None))
+    monkeypatch.setattr(limits.likelihood, "correlation", lambda *_: (None, np.array([0.4, 2.0, 8.0])))
+    tried = []
+
+    def odds(near, observed, gain, std_error):
+        tried.append((near.values[0], gain, std_error))
+        return -2.0 if std_error < 0.5 else -18.0
+
+    monkeypatch.setattr(limits, "log_odds", odds)
+    found = limits.place_limits(state, survey)
+    assert tried == [(0.8, 0.0, 0.2), (4.0, 0.0, 1.0), (16.0, 0.0, 4.0)]  # typical: half a degree
+    sizes = [1.6 * (4.0 + 1.645) * 0.2, 1.6 * (6.0 + 1.645) * 1.0]  # the third is beyond 30 deg
+    assert [(one.values[0], error) for one, error in found] == [
+        (pytest.approx(size), pytest.approx(error)) for size, error in zip(sizes, (0.2, 1.0))
+    ]
+    assert limits.place_limits(state, SimpleNamespace(candidates=[])) == []
+
+
+def test_of_several_shapes_the_limit_is_that_which_nine_of_ten_do_not_exceed(fit, monkeypatch):  # noqa: F811
+    joint, fitted = fit
+    absent = ACTIVE[0].replace_values(np.zeros(1))
+    monkeypatch.setattr(limits, "_refit_ratio", lambda *_: 1.0)
+    found = Scores(np.zeros(11), np.linspace(1.0, 2.0, 11) ** -2.0, np.ones(11, bool), np.eye(11))
+    sizes, _ = limits._scored_limits(joint, fitted, [absent] * 11, found, 5.0)
+    assert sizes[absent.key] == pytest.approx(5.0 * 1.9 * absent.typical[0])

@@ -9,7 +9,7 @@ import pytest
 from test_diagnose import EFFECTS, LAW
 from test_diagnose import table as whole
 
-from asphalt_nscd.diagnosis.causes import CATALOGUE, EVERY
+from asphalt_nscd.diagnosis.causes import EVERY
 from asphalt_nscd.diagnosis.causes._cause import Setting, Sweep
 from asphalt_nscd.diagnosis.content.whole import Content
 from asphalt_nscd.diagnosis.model.joint import Candidate
@@ -97,24 +97,6 @@ def test_of_two_specimens_neither_sweep_is_the_odd_one():
     observed = table(3, FAULTS[LEVEL, Sweep("b", 15.0)][1](0.3))
     two = observed.subset(np.flatnonzero(observed.specimen < 2))
     assert all(one.kind != LEVEL or one.specimen == "b" for one in diagnose(two, draws=FEW).ladder.odd)
-
-
-def test_every_fault_has_a_place_a_size_and_a_forward_model():
-    observed = table(3)
-    modulus = observed.modulus
-    for cause in set(EVERY) - set(CATALOGUE):
-        places = cause.places(observed)
-        assert places, cause.name
-        for place in places:
-            reached = cause.rows(observed, place)
-            assert 0 < reached.sum() < observed.size, place
-        size = np.array([cause.parameters[0].typical])
-        moved = cause.apparent(modulus, size, observed) / modulus
-        rise = np.any(cause.temperature_rise(size, observed))
-        assert rise or np.allclose(np.abs(np.log(moved)), cause.parameters[0].typical, rtol=0.05) or (
-            np.allclose(np.angle(moved), size[0] * (observed.omega if cause.parameters[0].unit == "s" else 1))
-            or np.allclose(np.degrees(np.angle(moved)), size[0])
-        )  # fmt: skip
 
 
 def odd(kind, place, size, error):

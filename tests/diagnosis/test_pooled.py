@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.stats import chi2
 
 from asphalt_nscd.diagnosis.causes import CATALOGUE
 from asphalt_nscd.diagnosis.machine import pooled
@@ -163,3 +165,116 @@ def test_campaigns_that_differ_widen_the_error_by_what_they_differ():
     assert found.value == pytest.approx(wide @ value / wide.sum())
     agree = [pooled._Evidence(np.array([[w]]), np.array([0.1 * w])) for w in weight]
     assert pooled._together(agree, np.zeros(0)).std_error == pytest.approx(weight.sum() ** -0.5, rel=0.05)
+
+
+def test_a_size_of_campaigns_of_which_one_in_ten_is_astray_is_the_likeliest():
+    """By a search on the likelihood of the mixture, one campaign three of its errors off."""
+    weight, value = np.array([400.0, 100.0, 100.0, 25.0]), np.array([0.30, 0.31, 0.60, 0.2])
+
+    def likelihoods(mean):
+        return 0.9 * np.exp(-0.5 * weight * (value - mean) ** 2), 0.04 * np.exp(
+            -0.08 * weight * (value - mean) ** 2
+        )
+
+    grid = np.linspace(0.2, 0.5, 30001)
+    heights = [np.log(np.sum(likelihoods(one), axis=0)).sum() for one in grid]
+    best = grid[np.argmax(heights)]
+    each = [pooled._Evidence(np.array([[w]]), np.array([w * v])) for w, v in zip(weight, value, strict=True)]
+    found = pooled._together(each, np.zeros(0))
+    assert found.value == pytest.approx(best, abs=2e-5)
+    sound, astray = likelihoods(best)
+    believed = weight * (sound + astray / 6.25) / (sound + astray)
+    assert found.std_error == pytest.approx(believed.sum() ** -0.5, rel=1e-4)
+    none = np.log(np.sum(likelihoods(0.0), axis=0)).sum()
+    assert found.z == pytest.approx(np.sqrt(2.0 * (max(heights) - none)), rel=1e-6)
+    square = weight @ (value - weight @ value / weight.sum()) ** 2
+    assert found.differ == pytest.approx(chi2(3).sf(square)) and found.between == 0.0
+
+
+def test_of_two_causes_the_last_is_told_beside_the_first_and_knows_that_it_is_free():
+    information = np.array([[100.0, 60.0], [60.0, 400.0]])
+    each = [pooled._Evidence(information, information @ [0.5, size]) for size in (0.2, 0.21, 0.19)]
+    found = pooled._together(each, np.array([0.5]))
+    alone = [one.conditional([1], {0: 0.5}) for one in each]
+    assert [one.score[0] / one.information[0, 0] for one in alone] == pytest.approx([0.2, 0.21, 0.19])
+    assert found.value == pytest.approx(0.2)
+    assert found.std_error == pytest.approx((3.0 * (400.0 - 60.0**2 / 100.0)) ** -0.5, rel=0.05)
+    assert pooled._all_together(each, np.zeros(2)) == pytest.approx([0.5, 0.2])
+    assert pooled._gain(each, np.array([0.5])) == pytest.approx(400.0 * (0.2**2 + 0.21**2 + 0.19**2))
+    unseen = pooled._Evidence(np.diag([4.0, 0.0]), np.array([2.0, 0.0]))
+    assert pooled._together([unseen], np.array([0.5])) == pooled._Whole()
+    assert pooled._gain([*each, unseen], np.array([0.5])) == pooled._gain(each, np.array([0.5]))
+    assert pooled._all_together([unseen], np.array([9.0, 7.0])) == pytest.approx([0.5, 7.0])
+
+
+def test_the_likelier_cause_has_one_size_or_pays_for_each_of_several():
+    """Four campaigns: sizes of their own cost two each but for the first."""
+    one, several = (cause for cause in CATALOGUE if cause.name in ("channel_delay", "phase_offset"))
+    for gain, likelier in ((30.9, one), (31.1, several)):
+        wholes = {one: pooled._Whole(z=5.0, differ=0.003), several: pooled._Whole(z=9.0, differ=0.0029)}
+        assert pooled._likeliest(wholes, {one: 99.0, several: gain}, 4) is likelier
+
+
+def test_a_cause_of_one_sign_is_not_there_with_the_other():
+    friction = next(cause for cause in CATALOGUE if cause.name == "guide_friction")
+    assert (
+        pooled._z(friction, pooled._Whole(z=-4.0)) == 0.0 and pooled._z(OFFSET, pooled._Whole(z=-4.0)) == 4.0
+    )
+    assert {
+        "phase_offset",
+        "channel_delay",
+        "moving_mass",
+        "guide_friction",
+        "guide_stiffness",
+    } == pooled.MACHINE
+
+
+def test_chance_of_the_last_causes_is_that_beside_those_taken(monkeypatch):
+    """What the first takes of the second and third leaves them correlated."""
+    information = np.array([[4.0, 1.0, 2.0], [1.0, 9.0, 3.0], [2.0, 3.0, 16.0]])
+    monkeypatch.setattr(pooled, "_evidence", lambda *_: pooled._Evidence(information, None))
+    monkeypatch.setattr(pooled.chance, "largest_by_chance", lambda *given: given)
+    noise = SimpleNamespace(plain=SimpleNamespace(noise=SimpleNamespace(freedom=7)))
+    causes = [
+        next(c for c in CATALOGUE if c.name == n) for n in ("channel_delay", "phase_offset", "guide_friction")
+    ]
+    correlation, one_sided, freedom, draws, _ = pooled._largest_by_chance(
+        [SimpleNamespace(state=noise)] * 2, causes, 1, 500, None
+    )
+    left = np.linalg.inv(np.linalg.inv(information)[1:, 1:])
+    assert correlation == pytest.approx(left / np.sqrt(np.outer(np.diag(left), np.diag(left))))
+    assert one_sided.tolist() == [False, True] and (freedom, draws) == (14, 500)
+
+
+def test_parts_of_the_campaigns_are_told_apart_where_one_amplitude_does_not_fit(monkeypatch):
+    """By isotherm, of one campaign that has both and one that has the first: what they say of each adds up."""
+    tables = [np.array([0.0, 30.0]), np.array([0.0])]
+    states = [
+        SimpleNamespace(state=SimpleNamespace(plain=SimpleNamespace(observed=SimpleNamespace(
+            isotherm=t, frequencies=np.arange(3), test_type="bending")))) for t in tables
+    ]  # fmt: skip
+    shared = np.array([[4.0, 1.0], [1.0, 9.0]])
+    said = [
+        pooled._Evidence(shared, shared @ [2.0, 3.0]),
+        pooled._Evidence(np.diag([5.0, 0.0]), np.array([10.0, 0.0])),
+    ]
+    asked = []
+
+    def evidence(state, causes, parts):
+        asked.append(parts)
+        return said[len(asked) - 1]
+
+    monkeypatch.setattr(pooled, "_evidence", evidence)
+    told, chance = pooled._apart(states, [OFFSET], lambda of: of.isotherm, "degC")
+    assert [one.tolist() for one in asked] == [[[1.0, 0.0], [0.0, 1.0]], [[1.0, 0.0]]]
+    precision = shared + np.diag([5.0, 0.0])
+    covariance, unit = np.linalg.inv(precision), OFFSET.parameters[0].typical
+    assert [one.where for one in told] == ["0 degC", "30 degC"]
+    assert [one.value for one in told] == pytest.approx([2.0 * unit, 3.0 * unit])
+    assert [one.std_error for one in told] == pytest.approx(unit * np.sqrt(np.diag(covariance)))
+    difference = 1.0 / np.sqrt(covariance[0, 0] + covariance[1, 1] - 2.0 * covariance[0, 1])
+    assert chance == pytest.approx(chi2(1).sf(difference**2))
+    assert pooled._part("a", pooled._Evidence(np.array([[4.0]]), np.array([6.0])), 0.5) == Part(
+        "a", 0.75, 0.25
+    )
+    assert np.isnan(pooled._part("a", pooled._Evidence(np.zeros((1, 1)), np.zeros(1)), 0.5).value)

@@ -4,7 +4,6 @@ import json
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
-from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -16,11 +15,9 @@ from asphalt_nscd.diagnosis import run
 from asphalt_nscd.diagnosis.content.whole import schema
 from asphalt_nscd.diagnosis.observed.reading import PAPER_GEOMETRY, read_observations
 from asphalt_nscd.diagnosis.record.reading import reading
-from asphalt_nscd.diagnosis.record.report import physical_limits
 from asphalt_nscd.diagnosis.screening.suspects import Suspect
 from asphalt_nscd.diagnosis.search import limits
 from asphalt_nscd.diagnosis.search.diagnose import diagnose
-from asphalt_nscd.diagnosis.search.ladder import Ladder
 from asphalt_nscd.diagnosis.words.answer import rows
 from asphalt_nscd.diagnosis.written import read_diagnosis
 from asphalt_nscd.measurements.agreement import mean_relative_error
@@ -114,29 +111,6 @@ def test_the_verdict_names_files_without_tests(tmp_path):
     Draft202012Validator(SCHEMA).validate(outcome.content)
     assert outcome.content["reading"]["files_without_tests"] == [told]
     assert dict(rows(outcome.content))["Note"][0] == told
-
-
-def test_estimates_that_spread_further_than_their_errors_widen_the_limits():
-    """Named causes do not count; of a cause with places the mean square."""
-    rung = SimpleNamespace(candidate=SimpleNamespace(cause=SimpleNamespace(name="damage")))
-    estimates = {
-        ("damage", None): (40.0, 1.0),
-        ("phase_offset", None): (3.0, 1.0),
-        ("temperature_bias", 4.0): (0.0, 1.0),
-        ("temperature_bias", 20.0): (-2.0, 1.0),
-        ("channel_delay", None): (0.0, np.inf),
-    }
-    found = SimpleNamespace(ladder=Ladder(None, None, rungs=[rung], estimates=estimates))
-    assert found.ladder.estimates_spread == pytest.approx(np.sqrt((9.0 + 2.0) / 2.0))
-    found.ladder.limits = {("phase_offset", None): 0.5, ("temperature_bias", 4.0): 8.0}
-    (wide,) = physical_limits(found).values()  # the other is wider than any error of temperature
-    assert wide == pytest.approx(0.5 * np.sqrt((9.0 + 2.0) / 2.0))
-    estimates["phase_offset", None] = (0.1, 1.0)
-    assert found.ladder.estimates_spread == pytest.approx(np.sqrt((0.01 + 2.0) / 2.0))
-    estimates["temperature_bias", 20.0] = (0.2, 1.0)
-    assert found.ladder.estimates_spread == 1.0
-    estimates.clear()
-    assert found.ladder.estimates_spread == 1.0
 
 
 def test_what_is_named_without_the_doubtful_tests(monkeypatch):

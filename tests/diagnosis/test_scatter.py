@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.stats import bartlett, norm
+from scipy.stats import f as fisher
 
 from asphalt_nscd.diagnosis.observed import scatter
 from asphalt_nscd.diagnosis.observed.observations import Observations
@@ -46,25 +48,6 @@ def test_what_a_mounting_shares_and_what_single_tests_scatter_by_are_told_apart(
     assert common == pytest.approx(shared**2, rel=0.15)
     sigma = np.mean([noise.sigma for noise in found], axis=0)
     assert sigma == pytest.approx(np.hypot(within, shared), rel=0.06)
-
-
-def test_where_nothing_is_shared_nothing_is_found_to_be():
-    random = np.random.default_rng(2)
-    found = [estimated(observed(random)) for _ in range(100)]
-    assert np.mean([noise.shared[0].any() for noise in found]) <= 0.05
-    assert np.mean([noise.within[:, 0] ** 2 for noise in found], axis=0) == pytest.approx(
-        [1e-4, 1.6e-5], rel=0.05
-    )
-
-
-def test_an_isotherm_that_scatters_more_has_a_scatter_of_its_own():
-    random = np.random.default_rng(3)
-    tables = [observed(random, warm=4.0) for _ in range(40)]
-    hot = tables[0].temperature == TEMPERATURES[-1]
-    ratio = [np.median(n.within[0, hot]) / np.median(n.within[0, ~hot]) for n in map(estimated, tables)]
-    assert np.exp(np.mean(np.log(ratio))) == pytest.approx(4.0, rel=0.08)
-    even = [estimated(observed(random)) for _ in range(40)]
-    assert np.mean([np.ptp(noise.within[0]) > 0.0 for noise in even]) <= 0.05
 
 
 def test_residuals_are_what_is_left_of_each_condition_without_what_specimens_may_differ_by():
@@ -114,3 +97,38 @@ def test_a_stated_scatter_is_taken_as_it_is():
     assert noise.sigma == (0.03, 0.01) and not noise.shared.any() and noise.scale == 0.05
     assert (noise.within[0] == 0.03).all() and (noise.within[1] == 0.01).all()
     assert np.unique(noise.block).size == 4 * len(TEMPERATURES)
+
+
+def graded(size):
+    """Ten residuals whose mean is zero."""
+    return size * norm.ppf((np.arange(10) + 0.5) / 10.0)
+
+
+def test_isotherms_have_a_scatter_each_where_bartlett_s_test_says_so():
+    """Each of ten residuals has nine degrees of freedom; then each has its own over the root of the mean square."""
+    temperature, shares = np.repeat([0.0, 10.0, 20.0], 10), 10.0 / 9.0
+    chances = []
+    for warm in (3.0, 3.2):
+        groups = [graded(one) for one in (1.0, 1.1, warm)]
+        chances.append(bartlett(*groups).pvalue)
+        squares = np.array([np.mean(one**2) for one in groups])
+        expected = np.ones(30) if chances[-1] > 1e-3 else np.repeat(np.sqrt(squares / squares.mean()), 10)
+        found = scatter._isotherm_scatter(np.concatenate(groups), temperature, shares)
+        assert found == pytest.approx(expected)
+    assert 5e-4 < chances[1] < 1e-3 < chances[0] < 5e-3
+    few = np.concatenate([graded(1.0)[:3], graded(9.0)])  # two degrees of freedom are not enough
+    assert (scatter._isotherm_scatter(few, np.repeat([0.0, 10.0], [3, 10]), shares) == 1.0).all()
+
+
+def test_blocks_share_a_scatter_where_their_means_spread_beyond_chance():
+    """Five blocks of four, each residual less by half of its freedom: variances of both by analysis of variance."""
+    inner = np.tile([-3.0, -1.0, 1.0, 3.0], 5)
+    block, share = np.repeat(np.arange(5), 4), 2.0
+    within = 2.0 * (inner @ inner) / 15.0
+    for size, beyond in ((2.6, False), (2.8, True)):
+        means = size * np.array([-2.0, -1.0, 0.0, 1.0, 2.0])
+        residual = inner + means[block]
+        between = 2.0 * 4.0 * (means @ means) / 5.0
+        assert bool(fisher(2.5, 7.5).sf(between / within) < 0.01) is beyond
+        expected = (within, (between - within) / 4.0) if beyond else (2.0 * residual @ residual / 20.0, 0.0)
+        assert scatter._components(residual, block, share) == pytest.approx(expected)

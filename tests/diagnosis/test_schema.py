@@ -201,20 +201,6 @@ def test_a_specimen_is_asked_at_angular_frequencies():
     assert simulated == pytest.approx(fitted.modelled + np.log(1.0 + omega))
 
 
-def test_an_isotherm_at_an_end_is_no_part_of_the_held_out_error(monkeypatch):
-    temperature = np.repeat([0.0, 10.0, 20.0], 2)
-    observed = SimpleNamespace(
-        logarithm=np.log(1e9) + 0.2j + np.zeros(6), temperature=temperature, isotherm=temperature
-    )
-    diagnosis = SimpleNamespace(observed=observed, noise=SimpleNamespace(sigma=(0.01, 0.01)))
-    monkeypatch.setattr(gain, "errors", lambda *_: {"mre_E_percent": {}, "mre_phase_percent": {}})
-    before = observed.logarithm + np.where(temperature == 10.0, 0.02, 0.5)
-    after = observed.logarithm + np.where(temperature == 10.0, 0.01, 5.0)
-    error = gain.compare_errors(diagnosis, before, after, inner=True)["mre_E_percent"]
-    assert error == {"before": pytest.approx(2.02, abs=0.01), "after": pytest.approx(1.005, abs=0.001)}
-    assert gain.compare_errors(diagnosis, before, after)["mre_E_percent"]["after"] > 1000.0
-
-
 def test_residuals_are_logarithms_of_measured_over_simulated(diagnosed):
     table = pd.read_csv(diagnosed[1] / "residuals.csv")
     for when in ("before", "after"):

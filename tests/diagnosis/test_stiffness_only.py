@@ -48,6 +48,26 @@ def test_the_curve_that_made_them_is_found(table):
     assert found.within == pytest.approx(SCATTER, rel=0.16)
     assert found.between == pytest.approx(np.std(list(LEVELS.values()), ddof=1), abs=0.004)
 
+    # Each level is known from 30 tests, and drawn to none as by (scatter of a test / 3 %)^2 more.
+    tests = found.tests.assign(
+        level=np.log(
+            found.tests["curve_E_MPa"]
+            / found.fit.law.complex_modulus(
+                2.0 * np.pi * found.tests["frequency_Hz"], found.tests["temperature_C"]
+            ).__abs__()
+            * 1e6
+        )
+    )
+    levels = tests.groupby("specimen")["level"].mean()
+    off = np.log(tests["E_MPa"] / tests["curve_E_MPa"]) + tests["level"]
+    assert levels.to_numpy() == pytest.approx(
+        off.groupby(tests["specimen"]).sum() / (30.0 + (found.within / 0.03) ** 2), rel=1e-4
+    )
+    assert tests["residual_percent"].to_numpy() == pytest.approx(100.0 * (off - tests["level"]))
+    assert found.between == pytest.approx(levels.std(ddof=1))
+    free = 90 - 3 - len(found.uncertainty.covariance)
+    assert found.within == pytest.approx(np.sqrt(((off - tests["level"]) ** 2).sum() / free))
+
 
 def test_the_command_says_what_was_not_judged(table, tmp_path, capsys):
     with pytest.raises(SystemExit) as ended:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.stats import t as student
 
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.screening import suspects, within_isotherm
@@ -230,3 +232,91 @@ def test_table_holds_what_the_map_shows():
     left = (table["phase_deg"] - table["phase_required_deg"]).drop(row)
     assert left.abs().median() < 0.5 and (left.abs() < 4.0 * table["std_error_deg"].drop(row)).all()
     assert table["phase_deg"][row] - table["phase_required_deg"][row] > 3.0
+
+
+def test_replicates_judge_a_test_that_they_have_not_seen():
+    """By least squares on levels and conditions without the test: what it lies off, in scatter of such a prediction."""
+    observed = campaign(scatter=(0.01, 0.3))
+    observed = altered(observed, row := row_of(observed, 1, 21.0, 5.0), 0.05, 1.0)
+    everything = np.ones(observed.size, bool)
+    apart, chance = suspects._replicate_distance(observed, everything)
+    own, z = [], []
+    for one in np.flatnonzero(observed.temperature == 21.0):
+        here = np.flatnonzero(observed.temperature == 21.0)
+        levels = (observed.specimen[here, None] == np.arange(3)).astype(float)
+        design = np.hstack([levels, (observed.frequency[here, None] == FREQUENCIES).astype(float)])
+        rest = here != one
+        for column, value in enumerate((observed.logarithm.real, observed.logarithm.imag)):
+            best = np.linalg.lstsq(design[rest], value[here][rest], rcond=None)[0]
+            off = (value[here] - design @ best)[~rest][0]
+            assert apart[one, column] == pytest.approx(off, abs=1e-12)
+            if one == row:
+                left = value[here][rest] - design[rest] @ best
+                wide = (
+                    1.0 + design[~rest][0] @ np.linalg.pinv(design[rest].T @ design[rest]) @ design[~rest][0]
+                )
+                own.append(np.sqrt(left @ left / 9.0 * wide))  # 17 tests less 8 that are fitted
+                z.append(off)
+    tables = [observed.temperature == t for t in TEMPERATURES]
+    usual = []
+    for here in tables:
+        every = observed.logarithm[here].reshape(3, -1)
+        every = every - every.mean(axis=0) - every.mean(axis=1, keepdims=True) + every.mean()
+        usual.append(np.sqrt([(every.real**2).sum() / 10.0, (every.imag**2).sum() / 10.0]))
+    error = np.maximum(own, np.median(usual, axis=0) / np.sqrt(1.0 - 8.0 / 18.0))
+    assert chance[row] == pytest.approx(2.0 * student(30).sf(np.abs(z) / error))
+    alone, one = suspects._replicate_distance(observed, observed.specimen > 0)  # two are no replicates
+    assert not alone.any() and (one == 1.0).all()
+
+
+@pytest.mark.parametrize(("above", "accused"), [(2, True), (3, False)])
+def test_a_limit_singles_out_tests_of_a_sweep_less_than_half_of_which_exceed_it(above, accused):
+    observed = campaign()
+    found = suspects._singled_out(flagged(observed, np.arange(above)))
+    assert [bool(one) for one in found] == [accused and row < above for row in range(observed.size)]
+
+
+def test_a_broken_isotherm_is_told_by_means_over_its_specimens(monkeypatch):
+    """Phase measured less required at each frequency; its error of the single ones, and of the scatter of a test."""
+    observed = campaign()
+    loo = within_isotherm.leave_one_out(observed)
+    required = observed.logarithm.imag - np.radians(observed.specimen + 1.0)
+    monkeypatch.setattr(
+        suspects, "_required", lambda *_: (required, np.radians(0.4) * (1.0 + observed.specimen))
+    )
+    monkeypatch.setattr(suspects, "_broken_temperatures", lambda *_: np.array([21.0]))
+    loo.scatter[:, 1] = np.radians(0.3)
+    loo.exchanged = (SimpleNamespace(rows=(row_of(observed, 2, 21.0, 5.0),)),)
+    (found,) = suspects.broken_isotherms(observed, loo)
+    assert found.difference == pytest.approx([2.0, 2.0, 2.0, 1.5, 2.0, 2.0]) and found.specimens == 3
+    errors = np.hypot([0.4, 0.8, 1.2], 0.3)
+    assert found.std_error[0] == pytest.approx(np.sqrt(errors @ errors) / 3.0)
+    assert found.std_error[3] == pytest.approx(np.sqrt(errors[:2] @ errors[:2]) / 2.0)
+
+
+@pytest.mark.parametrize(
+    ("difference", "error", "contradicts"),
+    [
+        ([-2.0, -4.2], [1.0, 1.0], True),
+        ([-2.0, -3.9], [1.0, 1.0], False),
+        ([4.0, 4.0], [1.0, 4.6], False),
+        ([4.0, 4.4], [1.0, 4.4], True),
+        ([], [], False),
+    ],
+)
+def test_a_torn_isotherm_contradicts_itself_from_3_degrees_and_1_5_errors_of_its_mean(
+    difference, error, contradicts
+):
+    assert suspects._contradicts(np.array(difference), np.array(error)) is contradicts
+
+
+def test_an_isotherm_is_broken_if_all_specimens_together_say_so():
+    """Each as likely to depart by 15 deg as not at all; the prior is for none, and three specimens outweigh it."""
+    observed = campaign()
+    loo = within_isotherm.leave_one_out(observed)
+    for evidence, broken in ((2.5, [21.0]), (2.4, [])):
+        loo.log_evidence[:] = np.where(np.arange(5) < 2, 0.0, -60.0)
+        loo.log_evidence[observed.temperature == 21.0] = [0.0, 0.0, -60.0, -60.0, evidence]
+        share = 0.05 * np.exp(3.0 * evidence) / (0.78 + 0.05 * np.exp(3.0 * evidence))
+        assert (share > 0.98) and bool(share > 0.99) is bool(broken)
+        assert suspects._broken_temperatures(observed, loo).tolist() == broken

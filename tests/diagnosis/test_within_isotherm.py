@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.special import logsumexp
+from scipy.stats import f as fisher
 from scipy.stats import multivariate_normal
 from scipy.stats import t as student
 
@@ -144,3 +147,130 @@ def test_isotherms_of_three_tests_judge_nothing():
     few = observed.subset(observed.frequency < 2.0)
     loo = within_isotherm.leave_one_out(few)
     assert not loo.judged.any() and (loo.chance == 1.0).all() and np.isnan(loo.expected).all()
+
+
+def test_both_values_of_a_test_are_judged_together_by_the_others():
+    """Ripples and bends weighed by the density of the other tests; Fisher's F of two values and their freedom."""
+    observed = table(specimens=1, temperatures=(15.0,))
+    made = within_isotherm._Table(observed)
+    chance = made.leave_one_out().chance[:, 2]
+    (group,) = made.groups
+    k = FREQUENCY.size
+    logarithm = observed.logarithm
+    values = np.concatenate([logarithm.real - logarithm.real.mean(), logarithm.imag])
+    scatter = np.diag(np.repeat(np.square(within_isotherm.SCATTER), k))
+    for test in range(k):
+        pair, logs, chances = [test, test + k], [], []
+        others = np.setdiff1d(np.arange(2 * k), pair)
+        for covariance, weight in zip(group.covariance, made.weights[0].ravel(), strict=True):
+            whole = covariance + scatter
+            part = whole[np.ix_(others, others)]
+            logs.append(weight + multivariate_normal(cov=part).logpdf(values[others]))
+            pull = np.linalg.solve(part, whole[np.ix_(others, pair)]).T
+            left = values[pair] - pull @ values[others]
+            spread = whole[np.ix_(pair, pair)] - pull @ whole[np.ix_(others, pair)]
+            chances.append(fisher(2, 10.0).sf(0.5 * left @ np.linalg.solve(spread, left)))
+        share = np.exp(np.array(logs) - logsumexp(logs))
+        assert chance[test] == pytest.approx(share @ chances, rel=1e-4)
+
+
+def test_a_delay_of_an_isotherm_is_the_mixture_of_generalised_least_squares():
+    """Of each ripple and bend a flat prior of the delay; weighed by their evidence with it integrated out."""
+    observed = table(specimens=1, temperatures=(15.0,), delay=5e-4)
+    made = within_isotherm._Table(observed)
+    (group,) = made.groups
+    k, omega = FREQUENCY.size, 2.0 * np.pi * FREQUENCY
+    logarithm = observed.logarithm
+    values = np.concatenate([logarithm.real - logarithm.real.mean(), logarithm.imag])
+    scatter = np.diag(np.repeat(np.square(within_isotherm.SCATTER), k))
+    along = np.concatenate([np.zeros(k), omega])
+    tried = np.linspace(-5e-3, 5e-3, 4001)
+    density = np.zeros(tried.size)
+    for covariance, weight in zip(group.covariance, made.weights[0].ravel(), strict=True):
+        left = values - tried[:, None] * along
+        density += np.exp(weight) * multivariate_normal(cov=covariance + scatter).pdf(left)
+    mean = density @ tried / density.sum()
+    error = np.sqrt(density @ (tried - mean) ** 2 / density.sum())
+    found = made._delays(group, observed.omega)[:, 0]
+    assert found == pytest.approx([mean, error], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("delays", "errors", "isotherms", "expected"),
+    [
+        ([3.0, 3.1, 2.9, 9.0], [0.5, 0.5, 0.5, 0.5], [0, 0, 10, 10], 3.0),  # the lower one in the middle
+        ([3.0, 1.0, 1.1, 5.0], [0.1, 9.0, 9.0, 9.0], [0, 0, 10, 10], 3.0),  # weighed by one over the error
+        (
+            [3.0, 3.0, 3.0, 3.0],
+            [1.7, 1.7, 1.7, 1.7],
+            [0, 0, 10, 10],
+            0.0,
+        ),  # 1.253 times 0.85, three times that
+        ([3.0, 3.0, 3.0, 3.0], [1.55, 1.55, 1.55, 1.55], [0, 0, 10, 10], 3.0),
+        ([3.0, 2.0, 4.0, 3.0], [0.2, 0.2, 0.2, 0.2], [0, 0, 10, 10], 3.0),
+        ([3.0, 1.4, 4.6, 3.0], [0.2, 0.2, 0.2, 0.2], [0, 0, 10, 10], 3.0),
+        (
+            [3.0, 0.0, 6.0, 6.0],
+            [0.2, 0.2, 0.2, 0.2],
+            [0, 0, 10, 10],
+            0.0,
+        ),  # they differ far beyond their errors
+        ([3.0, 3.0, 3.0, 3.0], [0.1, 0.1, 0.1, 0.1], [0, 0, 0, 0], 0.0),  # one temperature
+        ([3.0, 3.0, 3.0], [0.1, 0.1, 0.1], [0, 10, 20], 0.0),  # three isotherms
+    ],
+)
+def test_a_delay_is_the_weighted_median_of_isotherms_where_it_is_three_of_its_errors(
+    delays, errors, isotherms, expected
+):
+    first = np.arange(len(delays))
+    made = SimpleNamespace(
+        groups=[SimpleNamespace(first=first)], isotherm=np.array(isotherms),
+        _delays=lambda group, omega: np.array([delays, errors]),
+    )  # fmt: skip
+    assert within_isotherm._Table.common_delay(made, None) == expected
+
+
+def test_what_is_usual_is_learnt_from_the_table_and_bends_from_other_specimens():
+    """The weights of the module are worth three isotherms; those of the table, for a bend, two."""
+    evidence = np.full((3, 4, 5), -60.0)
+    evidence[0, 0, 0] = evidence[1, 1, 3] = evidence[2, 1, 4] = 0.0  # each isotherm is sure of one
+    made = SimpleNamespace(
+        groups=[SimpleNamespace(first=np.arange(3))], weights=np.zeros((3, 4, 5)),
+        isotherm=np.array([20.0, 20.0, 40.0]), specimen=np.array([0, 1, 0]),
+    )  # fmt: skip
+    within_isotherm._Table._learn_weights(made, SimpleNamespace(log_evidence=evidence))
+    ripples = (3.0 * np.array(WEIGHTS) + [1.0, 2.0, 0.0, 0.0]) / 6.0
+    bends = (3.0 * np.array(within_isotherm.BEND_WEIGHTS) + [1.0, 0.0, 0.0, 1.0, 1.0]) / 6.0
+    usual = [2.0 * bends + np.eye(5)[3], 2.0 * bends + np.eye(5)[0], 2.0 * bends]
+    for weights, of in zip(made.weights, usual, strict=True):
+        assert np.exp(weights) == pytest.approx(np.outer(ripples, of / of.sum()))
+
+
+def test_the_scatter_of_an_isotherm_is_drawn_to_the_common_one_by_what_it_knows():
+    """DerSimonian and Laird's variance between isotherms, of the logarithm of each scatter."""
+    isotherm = np.repeat([0.0, 10.0, 20.0], [12, 18, 24])
+    weight, squares = np.ones((54, 2)), np.ones((54, 2))
+    weight[::2, 0], squares[:12, 0], squares[30:, 1] = 0.5, 6.0, 0.12
+    made = SimpleNamespace(
+        judged=np.ones(54, bool), isotherm=isotherm, weight=weight, squares=squares,
+        scatter=np.tile([0.02, 0.01], (54, 1)), freedom=np.zeros((54, 2)),
+    )  # fmt: skip
+    within_isotherm._Table._learn_scatter(made)
+    for column, begin in enumerate((0.02, 0.01)):
+        groups = [isotherm == t for t in (0.0, 10.0, 20.0)]
+        sums = np.array(
+            [[one[rows, column].sum() for one in (weight, weight**2, squares)] for rows in groups]
+        )
+        own = np.log(begin * np.clip(np.sqrt(sums[:, 2] / sums[:, 0] / 0.9205), 0.3, 3.0))
+        chance = 0.5 * sums[:, 1] / (0.4 * sums[:, 0] ** 2)
+        known = 1.0 / chance
+        common = known @ own / known.sum()
+        spread = known @ (own - common) ** 2 - 2.0
+        between = max(spread, 0.0) / (known.sum() - known @ known / known.sum())
+        share = between / (between + chance)
+        expected = np.exp(common + np.clip(share * (own - common), np.log(0.5), np.log(3.0)))
+        freedom = 0.5 * 2.5 / (share * chance + (1.0 - share) ** 2 / known.sum())
+        for rows, size, count in zip(groups, expected, freedom, strict=True):
+            assert made.scatter[rows, column] == pytest.approx(np.full(rows.sum(), size))
+            assert made.freedom[rows, column] == pytest.approx(np.full(rows.sum(), count))
+        assert between > 0.0

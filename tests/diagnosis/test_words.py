@@ -1,10 +1,16 @@
 """Rows of the first screen and reasons say what the content holds; rows with nothing to say are left out."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from contents import LAW_MISSES, SOUND, SURE, named, of_suspects
+from scipy.stats import norm
 
-from asphalt_nscd.diagnosis.words import facts, sentences
+from asphalt_nscd.diagnosis.next_tests.choice import Order
+from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
+from asphalt_nscd.diagnosis.next_tests.sweeps import Sweep
+from asphalt_nscd.diagnosis.words import facts, order_words, sentences
 from asphalt_nscd.diagnosis.words.answer import MOST, WIDTH, Words, answer, summary
 from asphalt_nscd.diagnosis.words.tables import tables
 from asphalt_nscd.diagnosis.written import interval_95
@@ -255,15 +261,6 @@ def test_the_specimen_that_stands_out_is_told_beside_the_scatter(changed, told):
     assert len(row("Scatter", repeatability=scatter, odd_phases=odd)) == 1
 
 
-def test_frequencies_that_the_campaign_has_not_are_told_as_new():
-    order = {
-        "text": "2 h: test.", "why": [], "act": "test specimen A", "half_strain": False, "nats": 1.0,
-        "frequencies_Hz": [0.03, 0.1, 0.5, 1.0], "purpose": "to see", "hours": 2.0,
-    }  # fmt: skip
-    said = row("Next tests", instructions={"costs": "", "orders": [order]})
-    assert said[-1] == "1. Test specimen A, all frequencies (0.03 Hz is new), to see (2.0 h)."
-
-
 def test_a_highest_frequency_that_is_off_is_checked_first():
     off = {
         "frequency_Hz": 25.0, "modulus_percent": 0.4, "modulus_interval_95": [-0.6, 1.4], "phase_deg": 6.0,
@@ -435,3 +432,89 @@ def test_an_excess_stands_before_its_error():
     (table,) = [one for one in tables(content(excess_phase=[excess])) if one.rows]
     assert [head.partition(",")[0] for head in table.head[:3]] == ["isotherm", "excess", "standard error"]
     assert table.rows == [["20 degC", "2.00", "0.30", "-36"]]
+
+
+@pytest.mark.parametrize(
+    ("fit", "pattern", "left"), [(0.0024, 0.5, True), (0.5, 0.0024, True), (0.0026, 0.0026, False)]
+)
+def test_structure_is_left_where_either_chance_is_below_half_of_a_step_s(fit, pattern, left):
+    found = {"lack_of_fit_p_value": fit, "largest_pattern_left": {"p_value": pattern}}
+    assert facts.exceeds_scatter(found) is left
+    assert facts.exceeds_scatter(found | {"largest_pattern_left": None}) is (fit < 0.0025)
+
+
+@pytest.mark.parametrize(
+    ("specimens", "most", "too_few"),
+    [(3, 2, True), (3, 1, False), (4, 2, True), (5, 2, False), (1, 2, False)],
+)
+def test_of_few_specimens_none_is_told_to_be_the_odd_one(specimens, most, too_few):
+    left = [part_left("phase", "B") | {"size": 3.0}, part_left("phase") | {"size": 4.0}]
+    found = content(discrepancy=left, reading={"specimens": list("ABCDE"[:specimens])})
+    assert [one["size"] for one in facts.parts_left(found)] == [4.0, 3.0]
+    assert facts.too_few_to_tell(found, most) is too_few
+
+
+@pytest.mark.parametrize(("had", "one_law"), [(4.0, False), (4.003, False), (4.005, True)])
+def test_a_ladder_without_a_rung_of_the_law_may_begin_with_one_all_the_same(had, one_law):
+    errors = {
+        name: {"before": had, "after": 1.0}
+        for name in ("mre_E_percent", "mre_phase_percent", "off_phase_deg")
+    }
+    rung = named("channel_delay", 1e-3, "s", gain={"in_sample": {"averages_by_temperature": {"20": errors}}})
+    found = content(rung, baseline={"mre_E_percent": {"0": 3.0, "20": 5.0}})
+    assert facts.begins_with_one_law(found) is one_law
+    assert not facts.begins_with_one_law(content(rung | {"cause": "relaxation_spectrum"}))
+
+
+@pytest.mark.parametrize(
+    ("part", "size", "said"),
+    [
+        ("phase", 3.0, "1.5 deg in the phase"),
+        ("modulus", 3.0, "6.0 % in |E*|"),
+        ("phase", 0.04, "0.02 deg in the phase"),
+    ],
+)
+def test_what_is_left_is_told_in_percent_and_degrees(part, size, said):
+    assert sentences.size_left(part, size, {"modulus_percent": 2.0, "phase_deg": 0.5}) == said
+
+
+@pytest.mark.parametrize(
+    ("value", "said"), [(0.0234, "2 %"), (0.00046, "0.05 %"), (9e-7, "below one in a million")]
+)
+def test_a_chance_has_one_digit(value, said):
+    assert sentences.chance(value) == said
+
+
+def asked(kind, hidden=0.0, **then):
+    return order_words.Open(kind, None, "a delay", "0.1 deg", hidden=hidden, **then)
+
+
+def test_what_tests_bring_within_reach_is_told_from_15_percent_on():
+    """The chance that a score of the root of the strength, less what the law hides, passes 3.7."""
+    before, after = 100.0 * norm.cdf(np.sqrt([4.0, 16.0]) - 3.7)
+    ((about, places, now, then),) = order_words.reached([(asked("reach", hidden=9.0), 13.0, 25.0)])
+    assert (about, places, now, then) == ("a delay", [None], [pytest.approx(before)], [pytest.approx(after)])
+    for strength, told in ((7.4, False), (7.6, True)):  # 16 % and 17 % less 2 %
+        assert bool(order_words.reached([(asked("reach"), 2.56, strength)])) is told
+
+
+@pytest.mark.parametrize(
+    ("where", "covered"),
+    [({}, True), ({"specimen": "B"}, False), ({"isotherm": 4.0}, False), ({"frequency": 5.0}, False),
+     ({"specimen": "A", "isotherm": 20.0, "frequency": 10.0}, True)],
+)  # fmt: skip
+def test_an_order_covers_a_departure_of_its_specimen_isotherm_and_frequency(where, covered):
+    order = Order(Sweep("A", 20.0, (1.0, 10.0), False, None, 1.0), ["A"], 1.0, 1.0, {})
+    assert asked("repeat", departure=Departure("repeat", None, **where)).covers(order) is covered
+    assert not asked("reach").covers(order)
+
+
+@pytest.mark.parametrize(
+    ("half", "specimens", "again"), [(False, ["A"], True), (True, ["A"], False), (False, ["A", "B"], False)]
+)
+def test_tests_that_were_all_made_are_asked_for_again(half, specimens, again):
+    done = SimpleNamespace(
+        names=("A", "B"), specimen=[0, 0, 1], isotherm=[20.0] * 3, frequency=[1.0, 10.0, 1.0]
+    )
+    order = Order(Sweep("A", 20.0, (1.0, 10.0), half, None, 1.0), specimens, 1.0, 1.0, {})
+    assert (" again at 20 degC" in order_words.act(order, done)) is again
