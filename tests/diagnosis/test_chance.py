@@ -76,13 +76,21 @@ def test_scores_of_scatter_have_unit_variance_and_the_correlation_stated(model):
     assert np.diag(found.correlation) == pytest.approx(1.0)
 
 
-def test_what_the_law_follows_is_not_seen_but_of_one_specimen(model):
-    joint, jacobian, prior, directions = model
-    followed = (jacobian[:N, 0] + 1j * jacobian[N:, 0])[:, None] + 1e-4 * directions[:, :1]
-    one = fitted(jacobian, 1e-6 * prior, np.random.default_rng(6).standard_normal(2 * N), np.zeros(P))
-    assert not chance.scores(joint, one, followed, np.array([False])).seen[0]
-    assert chance.scores(joint, one, followed, np.array([True])).seen[0]
-    assert chance.scores(joint, one, followed, np.array([False])).z[0] == 0.0
+@pytest.mark.parametrize(
+    ("left", "confined", "seen"),
+    [(3.1e-3, False, True), (2.9e-3, False, False), (2e-9, True, True), (5e-10, True, False)],
+)
+def test_of_a_direction_the_law_must_leave_three_thousandths_of_its_square(left, confined, seen):
+    """Along the one direction that the law has, of which its prior holds so much."""
+    joint = SimpleNamespace(noise=SimpleNamespace(whiten=lambda v: np.concatenate([v.real, v.imag])))
+    law = SimpleNamespace(
+        jacobian=np.eye(6)[:, :1],
+        precision=np.array([[1.0 / (1.0 - left)]]),
+        residual=np.zeros(6),
+        gradient=np.zeros(1),
+    )
+    found = chance.scores(joint, law, 2.0 * np.eye(3)[:, :1] + 0j, np.array([confined]))
+    assert found.information[0] == pytest.approx(4.0 * left, rel=1e-6) and bool(found.seen[0]) is seen
 
 
 @pytest.mark.parametrize(("one_sided", "freedom"), [(False, 9), (True, 9), (False, 10**6)])

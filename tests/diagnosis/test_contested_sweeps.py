@@ -38,6 +38,21 @@ def mask(observed, rows):
     return np.isin(np.arange(observed.size), rows)
 
 
+@pytest.mark.parametrize("scatter", [0.0, 0.03])
+def test_distance_is_how_far_off_its_level_a_test_is_in_usual_departures(scatter):
+    """Off the middle of the others, less what its specimen is off elsewhere; 1.4826 medians, or 1 % and 0.3 deg."""
+    observed = campaign()
+    noise = np.random.default_rng(3).normal(0.0, scatter, (2, observed.size))
+    observed = altered(observed, np.arange(observed.size), noise[0], np.degrees(noise[1]))
+    values = np.stack([observed.logarithm.real, observed.logarithm.imag], axis=1).reshape(3, 3, 4, 2)
+    apart = np.stack([values[k] - np.median(np.delete(values, k, axis=0), axis=0) for k in range(3)])
+    level = [[np.median(np.delete(apart[k], t, axis=0), axis=(0, 1)) for t in range(3)] for k in range(3)]
+    off = np.abs(apart - np.array(level)[:, :, None]).reshape(-1, 2)
+    usual = np.maximum(1.4826 * np.median(off, axis=0), [0.01, np.radians(0.3)])
+    assert bool(usual[0] > 0.01) is (scatter > 0.0)
+    assert contested._level_distance(observed) == pytest.approx((off / usual).max(axis=1))
+
+
 @pytest.mark.parametrize("specimens", [2, 3, 4])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("sizes", [(0.26, 4.0), (0.26, 0.0), (0.0, 15.0)], ids=["both", "modulus", "phase"])

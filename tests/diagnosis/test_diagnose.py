@@ -80,8 +80,18 @@ def test_a_cause_that_was_named_is_not_said_to_be_untestable():
     other = replace(named, place="c")
     unsure = replace(diagnosis, ladder=replace(diagnosis.ladder))
     unsure.ladder._detection_limits = diagnosis.ladder.limits, [named, other], diagnosis.ladder.alike
-    untestable = [row["cause"] for row in diagnosis_content(unsure, read_specimen())["not_testable"]]
+    content = diagnosis_content(unsure, read_specimen())
+    untestable = [row["cause"] for row in content["not_testable"]]
     assert "loose_clamp @ c" in untestable and "loose_clamp @ b" not in untestable
+    assert content["largest_pattern_left"]["z"] ** 2 == pytest.approx(diagnosis.ladder.remaining.gain)
+    noise = diagnosis.noise
+    sizes = 100.0 * noise.sigma[0], np.degrees(noise.sigma[1]), 100.0 * noise.scale
+    names = "modulus_percent", "phase_deg", "specimens_percent"
+    assert [content["scatter"][name] for name in names] == pytest.approx(sizes)
+    burgers = [list(one.values()) for one in content["baseline"]["parameters"].values()]
+    assert list(content["baseline"]["parameters"]) == ["-10", "0", "10", "15", "20", "30"]
+    assert np.ravel(burgers) == pytest.approx(np.exp(diagnosis.baseline.law))
+    assert [*content["baseline"]["parameters"]["15"]] == ["Em_Pa", "eta_m_Pa_s", "Ek_Pa", "eta_k_Pa_s"]
 
 
 def test_an_empty_table_names_the_spectrum_only():

@@ -70,15 +70,6 @@ def test_the_interval_holds_what_was_put_in(mounting):
         assert np.mean(np.abs(off)[np.array(design) == 1] < np.radians(0.3)) > 0.9
 
 
-def test_specimens_tested_at_other_frequencies_count_by_their_number():
-    observed = drawn(1, np.radians(1.0))
-    kept = (observed.specimen > 0) | (observed.frequency > 0.3)
-    every, fewer = found(observed), found(observed.subset(kept))
-    for one, other in zip(every, fewer, strict=True):
-        assert other.excess == pytest.approx(one.excess, abs=np.radians(0.25))
-        assert one.std_error < other.std_error < 1.5 * one.std_error
-
-
 def test_two_frequencies_tell_nothing():
     observed = drawn(0)
     assert found(observed.subset(observed.frequency < 5.0)) == []

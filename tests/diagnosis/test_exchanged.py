@@ -132,3 +132,11 @@ def test_gain_is_that_of_the_evidence_computed_anew(columns):
             moved[[one, other], column] = moved[[other, one], column]
         expected = np.logaddexp.reduce(evidence(moved)) - np.logaddexp.reduce(given)
         assert gain[exchanged.COLUMNS.index(columns), pair] == pytest.approx(expected, abs=1e-9)
+
+
+def test_an_exchange_pays_for_all_that_were_tried_and_for_values_that_fit_badly_after_it():
+    """Of 6 + 3 pairs three kinds each, four more; three beyond wrong values, and twice what is less than 3 %."""
+    assert exchanged.least_gain(np.array([4, 3])) == pytest.approx(4.0 + np.log(27.0))
+    assert exchanged.least_beyond(0.5) == 3.0 and exchanged.least_beyond(0.003) == pytest.approx(
+        3.0 + np.log(100.0)
+    )

@@ -61,6 +61,13 @@ def test_the_law_alone(folder):
     modulus, rig = extended(folder, [bonds, rung("relaxation_spectrum", wlf_C1=11.7)])
     assert np.abs(np.log(modulus / LAW.complex_modulus(OMEGA, 15.0))).max() < 1.1e-3
     assert rig.is_rigid and rig.channel_delay == 0.0
+    band = json.loads(
+        (folder / "f10.json").read_text()
+    )  # of 3 to 40 Hz, and a factor of two for the transient
+    assert (band["lowest_Hz"], band["highest_Hz"], band["temperature_C"]) == (1.5, 80.0, 15.0)
+    edge = 2.0 * np.pi * np.array([1.5, 80.0])
+    chain = read_bond_law(folder / "f10.json").complex_modulus(edge)
+    assert np.abs(np.log(chain / LAW.complex_modulus(edge, 15.0))).max() < 1.1e-3
 
 
 def test_causes_of_the_mix_change_the_law_and_those_of_the_rig_the_rig(folder):

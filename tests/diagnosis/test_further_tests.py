@@ -15,6 +15,7 @@ from asphalt_nscd.diagnosis.next_tests import choice, fixed_orders, further_test
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, NEW, Costs, Sweep
 from asphalt_nscd.diagnosis.observed.noise import Noise
 from asphalt_nscd.diagnosis.observed.observations import Observations
+from asphalt_nscd.diagnosis.record import instructions
 
 CAUSES = {cause.name: cause for cause in CATALOGUE}
 GRID = np.array([(s, t, f) for s in (0, 1) for t in (0.0, 20.0) for f in (1.0, 10.0)])
@@ -318,3 +319,43 @@ def test_a_second_specimen_is_mounted_at_each_temperature_and_made_once():
     sweep_hours = [Costs().hours("", t, [1.0, 10.0]) for t in (0.0, 20.0)]
     assert order["hours"] == pytest.approx(sum(sweep_hours) + 4.0, abs=0.005) and order["specimens"] == [NEW]
     assert fixed_orders.second_specimen(DONE, Costs()) == []
+
+
+@pytest.mark.parametrize(
+    ("effect", "share", "said"),
+    [
+        ([0.01j, 0.05j, 0.02j], 0.5, "5.7 deg of phase at 5 Hz"),
+        ([0.01j, 0.05j, 0.02j], 2.0, "6 deg of phase at 5 Hz"),  # +- 11 deg
+        ([0.05j, 0.0496j, 0.02j], 1e-3, "5.7 deg of phase at 5 Hz"),  # alike: the higher frequency
+        ([0.001, -0.0004j, 0.001], 0.3, "0.20 % of the modulus at 10 Hz"),
+        ([-0.03j] * 3, 0.3, "-3.4 deg of phase at every frequency"),
+    ],
+)
+def test_what_a_cause_does_on_metal_is_told_where_it_does_most(effect, share, said):
+    """Of two typical sizes, to the second digit of its interval or the first of its own."""
+    effects = np.zeros((5, 2), complex)
+    effects[2:, 1] = effect
+    model = SimpleNamespace(
+        table=SimpleNamespace(size=2), metal_frequencies=np.array([1.0, 5.0, 10.0]),
+        linear=SimpleNamespace(nuisance=np.zeros((5, 1)), effects=effects),
+    )  # fmt: skip
+    assert instructions._metal_effect(model, 1, 2.0, share) == said
+
+
+def test_rows_that_stay_where_a_part_is_left_out():
+    kept = dict(instructions._parts(TABLE, TABLE.size + 2))
+    assert set(kept) == {
+        "0 degC",
+        "10 degC",
+        "20 degC",
+        "0.3 Hz",
+        "1 Hz",
+        "10 Hz",
+        "specimen A",
+        "specimen B",
+        f"specimen {NEW}",
+    }
+    assert (kept["specimen B"][:-2] == (TABLE.specimen != 1)).all() and kept["specimen B"][-2:].all()
+    assert (kept["10 Hz"][:-2] == (TABLE.frequency != 10.0)).all() and (
+        kept["0 degC"][:-2] == (TABLE.isotherm != 0)
+    ).all()

@@ -52,6 +52,9 @@ def test_limits_of_the_linear_model_are_those_of_the_diagnosis(empty):
     """Two ways to the same standard error: a score test of the whole table, and information of all tests."""
     model = possible(empty, Costs())
     information = Knowledge(model.linear, [model.old]).information
+    of_metal = np.arange(model.linear.nuisance.shape[0]) >= model.table.size  # its level is known to 3 %
+    assert (model.linear.nuisance[:, -1] == of_metal).all()
+    assert model.linear.precision[-1, -1] == pytest.approx(0.03**-2)
     everything = np.ones(model.linear.nuisance.shape[0], bool)
     for k, candidate in enumerate(model.candidates):
         limit = empty.ladder.limits.get(candidate.key)

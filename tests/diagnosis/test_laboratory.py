@@ -178,6 +178,14 @@ def test_a_laboratory_that_holds_its_specimens_alike_holds_its_isotherms():
     assert 0.08 < careless["isotherm temperature"] < 0.4
 
 
+def test_usual_errors_are_those_of_the_standard_and_of_measured_campaigns():
+    """In K, relative, rad and ln time, with the spread of their logarithm between laboratories."""
+    assert {name: (one.size, one.spread) for name, one in laboratory.LABORATORY.items()} == {
+        "isotherm temperature": (0.15, 1.0), "specimen temperature": (0.2, 0.7), "mounting, modulus": (0.01, 0.6),
+        "mounting, phase": (pytest.approx(np.radians(0.15)), 0.6), "specimen times": (0.1, 1.0),
+    }  # fmt: skip
+
+
 def test_one_control_holds_isotherms_and_specimens():
     """Logarithms of both sizes spread by 1 and 0.7 and go together by 0.7; the usual is one."""
     for of_specimens in (1.0, 0.5, 3.0):

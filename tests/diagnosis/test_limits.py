@@ -69,21 +69,6 @@ def test_a_limit_beyond_any_size_of_its_cause_is_none(table, fit):  # noqa: F811
     assert not sizes and unseen == [absent]
 
 
-def test_twice_the_scatter_doubles_a_limit(table, fit):  # noqa: F811
-    joint, fitted = fit
-    absent = [one.replace_values(np.zeros(1)) for one in ACTIVE[:2]]
-    wide = Joint(
-        table,
-        joint.base,
-        replace(joint.noise, within=2.0 * joint.noise.within, scale=2.0 * joint.noise.scale),
-    )
-    once = limits_of(joint, fitted, absent)[0]
-    twice = limits_of(wide, wide.linearise(fitted.law, fitted.scales, ()), absent)[0]
-    for one in absent:
-        # A little less: the prior of the law counts for more.
-        assert 1.7 < twice[one.key] / once[one.key] < 2.01
-
-
 def test_the_law_is_fitted_again_where_it_leaves_less_than_a_twentieth_of_an_effect(fit, monkeypatch):  # noqa: F811
     joint, fitted = fit
     absent = [one.replace_values(np.zeros(1)) for one in ACTIVE[:2]]

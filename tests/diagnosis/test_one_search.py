@@ -358,7 +358,8 @@ def test_both_of_the_channel_may_be_chance_once_in_two_hundred_tables(monkeypatc
     for larger, named in ((4, 2), (6, 0)):
         draws = np.repeat([0.0, 1e3], [1000 - larger, larger])
         monkeypatch.setattr(one_search, "largest_by_chance", lambda *_, draws=draws: draws)
-        assert len(one_search._both_of_the_channel(begun, surveyed, 1000, None)) == named
+        found = one_search._both_of_the_channel(begun, surveyed, 1000, None)
+        assert len(found) == named and all(one.p_value < 0.01 for one in found)
 
 
 @pytest.mark.parametrize("sign,seed", [(1.0, 3), (1.0, 5), (-1.0, 4)])

@@ -110,6 +110,8 @@ def test_where_the_discrepancy_starts_does_not_change_the_evidence(seed=6, size=
     one, other = (pooled._evidence(each, [OFFSET]) for each in (begun, astray))
     assert other.information == pytest.approx(one.information, rel=5e-3)
     assert other.score == pytest.approx(one.score, rel=5e-2)
+    less = pooled._evidence(replace(begun, spread=2.0), [OFFSET])  # whose errors are believed twice as large
+    assert (less.information, less.score) == (0.25 * one.information, 0.25 * one.score)
 
 
 def test_a_delay_is_not_called_an_offset():

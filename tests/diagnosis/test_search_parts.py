@@ -12,8 +12,10 @@ from test_discrepancy import small
 from asphalt_nscd.diagnosis.causes import EVERY
 from asphalt_nscd.diagnosis.causes._cause import Setting
 from asphalt_nscd.diagnosis.model import likelihood
+from asphalt_nscd.diagnosis.model.discrepancy import Processes
 from asphalt_nscd.diagnosis.model.joint import Candidate
-from asphalt_nscd.diagnosis.model.likelihood import Estimate
+from asphalt_nscd.diagnosis.model.likelihood import Direction, Estimate
+from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.search import doubts, ladder, limits, one_search
 from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 
@@ -70,6 +72,74 @@ def test_of_many_shapes_the_best_four_are_estimated(monkeypatch):
     monkeypatch.setattr(likelihood, "weighed", lambda *_: (np.eye(6), z))
     shapes = [candidate("secondary_process", 0.0, 0.1 * k, 30.0, 0.5) for k in range(6)]
     assert list(one_search._promising(state, shapes, None)) == [1, 5, 4, 2]
+
+
+def test_sought_is_what_is_not_taken_yet_and_what_the_law_leaves_a_share_of(monkeypatch):
+    """Three thousandths of its square, or of what a fit decides a millionth: a fault of one specimen, a spring."""
+    left = {
+        candidate("channel_delay"): 3.1e-3, candidate("moving_mass"): 2.9e-3,
+        candidate("guide_stiffness"): 1.1e-6, candidate("guide_friction"): 1e-4,
+        candidate("loose_clamp", place="A"): 1.1e-6, candidate("loose_clamp", place="B"): 0.9e-6,
+        candidate("temperature_bias", place=9.0): 1e-4, candidate("phase_offset"): 1.0,
+        candidate("offset of one isotherm", place=9.0): 1.0,
+    }  # fmt: skip
+    own = 4.0 * np.array(list(left.values()))[:-2]
+    monkeypatch.setattr(one_search.chance, "catalogue_candidates", lambda *_: list(left))
+    monkeypatch.setattr(one_search.chance, "candidate_directions", lambda *given: np.ones((4, len(given[2]))))
+    pointing = Direction(np.arange(7.0)[None], np.diag(own), np.arange(7.0))
+    monkeypatch.setattr(likelihood, "directions", lambda *_: pointing)
+    state = SimpleNamespace(
+        plain=SimpleNamespace(observed=None, noise=SimpleNamespace(whiten=lambda d: d)), model=None, linear=None,
+        fitted=SimpleNamespace(active=[candidate("phase_offset", 1.0)]),
+    )  # fmt: skip
+    found, kept = one_search._pointing(state, None)
+    assert [one.key for one in found] == [
+        ("channel_delay", None),
+        ("guide_stiffness", None),
+        ("loose_clamp", "A"),
+    ]
+    assert kept.along.tolist() == [0.0, 2.0, 4.0] and np.diag(kept.own) == pytest.approx(own[[0, 2, 4]])
+
+
+@pytest.mark.parametrize(("z", "competes"), [(1.97, True), (-1.97, True), (1.95, False)])
+def test_a_size_whose_interval_holds_zero_competes_for_no_name(z, competes):
+    assert (
+        one_search.stands(None, None, candidate("phase_offset", 1.0), Estimate(None, 0.0, 2.0 * z, 2.0))
+        is competes
+    )
+
+
+@pytest.mark.parametrize(("size", "least"), [(1.0, 3.0), (-1.0, -3.0)])
+def test_a_cause_hangs_on_what_leaves_it_less_than_three_standard_errors(size, least, monkeypatch):
+    grid = np.array([(s, t, f) for s in (0, 1) for t in (0.0, 9.0, 20.0) for f in (1.0, 5.0)])
+    observed = Observations(
+        grid[:, 0].astype(int),
+        ("A", "B"),
+        grid[:, 1],
+        grid[:, 2],
+        np.ones(12) + 0j,
+        np.ones(12),
+        np.zeros(12),
+    )
+
+    def amplitude(state, named, rows):
+        carries = not (observed.isotherm[rows] == 9.0).any() or not (observed.specimen[rows] == 1).any()
+        return Estimate(None, 0.0, (0.97 if carries else 1.03) * least, 1.0)
+
+    monkeypatch.setattr(one_search, "taken_amplitude", amplitude)
+    state = SimpleNamespace(plain=SimpleNamespace(observed=observed))
+    assert one_search.hangs_on(state, candidate("phase_offset", size)) == ["9 degC", "specimen B"]
+    # Without its isotherm there is no bias to be seen; one frequency of two would be left.
+    assert one_search.hangs_on(state, candidate("temperature_bias", size, place=9.0)) == ["specimen B"]
+
+
+def test_so_many_causes_are_taken_and_so_many_faults_of_one_place(monkeypatch):
+    monkeypatch.setattr(one_search, "survey", lambda *_: None)
+    monkeypatch.setattr(one_search, "smoothed", lambda state: state)
+    for fault in (True, False):
+        kind = SimpleNamespace(candidate=SimpleNamespace(cause=SimpleNamespace(told=fault)), after=None)
+        monkeypatch.setattr(one_search, "_next", lambda *_, kind=kind: kind)
+        assert len(one_search.climb(None, (), 1, None)[0]) == 4
 
 
 @pytest.mark.parametrize(
@@ -233,6 +303,43 @@ def test_a_fault_of_one_that_most_would_have_to_share_is_in_doubt(name, places, 
     named = [candidate(name, place=place) for place in places] + [candidate("channel_delay")]
     said = list(doubts._shared_doubts(named[0], named, specimens))
     assert len(said) == bool(told) and all(one.startswith(told) for one in said)
+
+
+def test_rivals_stand_beside_all_processes_with_sizes_of_which_nothing_is_known(monkeypatch):
+    """From either side: as small as a twentieth, and the usual sizes; the better of both."""
+    found = Processes(
+        ("x", "y"),
+        ("X", "Y"),
+        np.ones((4, 3)),
+        np.array([0, 0, 1]),
+        np.array([0.5, 0.1]),
+        np.array([0.7, 0.0]),
+    )
+    monkeypatch.setattr(likelihood, "reduce", lambda every, rest: every)
+    monkeypatch.setattr(likelihood, "directions", lambda model, rest, direction: direction)
+    begun = []
+
+    def estimate(model, along, start):
+        begun.append((model, along, start))
+        return Estimate(None, float(len(begun)))
+
+    monkeypatch.setattr(likelihood, "estimate", estimate)
+    plain = SimpleNamespace(noise=SimpleNamespace(whiten=lambda root: 2.0 * root))
+    state = SimpleNamespace(
+        model=SimpleNamespace(processes=found), plain=plain, variances=np.array([3.0, 4.0])
+    )
+    roots = [np.full((4, 2), 5.0), np.full((4, 1), 6.0)]
+    assert doubts._estimate_beside(state, None, "along", roots).misfit == 1.0
+    (every, along, first), (_, _, second) = begun
+    assert along == "along" and first == pytest.approx([3.0, 4.0, 0.0025, 0.0025]) and second is None
+    assert every.block.tolist() == [0, 0, 1, 2, 2, 3] and every.factor[0].tolist() == [1, 1, 1, 10, 10, 12]
+    assert every.usual.tolist() == [0.5, 0.1, 1.0, 1.0] and every.spread.tolist() == [
+        0.7,
+        0.0,
+        np.inf,
+        np.inf,
+    ]
+    assert every.described == ("x", "y", doubts.RIVAL, doubts.RIVAL) and every.roots[:2] == ("X", "Y")
 
 
 def test_shapes_of_known_errors_and_smooth_effects_have_the_size_of_a_test_s_scatter():

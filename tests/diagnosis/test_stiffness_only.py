@@ -65,6 +65,9 @@ def test_the_curve_that_made_them_is_found(table):
     )
     assert tests["residual_percent"].to_numpy() == pytest.approx(100.0 * (off - tests["level"]))
     assert found.between == pytest.approx(levels.std(ddof=1))
+    shift = found.fit.law.shift.factor(tests["temperature_C"].to_numpy())
+    assert tests["reduced_frequency_Hz"].to_numpy() == pytest.approx(tests["frequency_Hz"].to_numpy() * shift)
+    assert shift[0] > 10.0  # the coldest is as if tested far faster
     free = 90 - 3 - len(found.uncertainty.covariance)
     assert found.within == pytest.approx(np.sqrt(((off - tests["level"]) ** 2).sum() / free))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import make_dataclass
 from types import SimpleNamespace
 
 import numpy as np
@@ -82,6 +83,26 @@ def test_a_likelihood_is_sought_from_several_starts_and_the_least_misfit_is_take
     assert started[0] == pytest.approx([4.0, LEAST, 6.0, 7.0, 0.36, 0.1]) and started[1] is None
     state = SimpleNamespace(model=model, variances=VARIANCES)
     assert fit_beside.State.hidden.fget(state) == pytest.approx([4.0, 5.0, 6.0, 7.0, 0.0, 0.0])
+
+
+def test_a_fit_made_afresh_begins_with_the_best_of_several_laws_and_sizes_it_has_known(monkeypatch):
+    objective = {"last": 5.0, "first": 3.0, "second": 4.0}
+    plain = SimpleNamespace(
+        fit=lambda law, *_: SimpleNamespace(objective=objective[law], law=law, active=("cause",))
+    )
+    sizes = make_dataclass("Sizes", ["usual", "spread"])
+    state = SimpleNamespace(
+        plain=plain,
+        fitted=SimpleNamespace(law="last", scales=None),
+        model=SimpleNamespace(processes=sizes(1, 2)),
+    )
+    monkeypatch.setattr(fit_beside, "first_laws", lambda _: ["first", "second"])
+    monkeypatch.setattr(fit_beside.laboratory, "processes", lambda *_: sizes(8, 9))
+    monkeypatch.setattr(likelihood, "reduce", lambda *given: given)
+    monkeypatch.setattr(likelihood, "estimate", lambda _: SimpleNamespace(variances="start"))
+    monkeypatch.setattr(fit_beside, "settle", lambda *given: given)
+    _, found, at, active, variances = fit_beside.afresh(state, ("cause",))
+    assert (found, at.law, active, variances) == (sizes(1, 2), "first", ("cause",), "start")
 
 
 @pytest.mark.parametrize(
