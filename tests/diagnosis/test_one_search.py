@@ -376,3 +376,4 @@ def test_an_offset_and_a_delay_that_a_discrepancy_takes_up_together_both_get_the
         error = ladder.std_errors(found[name].candidate)[0]
         (value,) = [one.values[0] for one in ladder.fitted.active if one.cause.name == name]
         assert abs(value - sign * size) < 3.0 * error < 0.5 * abs(size) and found[name].probability > 0.95
+        assert found[name].p_value < 0.01  # once 0.5, of one that its family had let in

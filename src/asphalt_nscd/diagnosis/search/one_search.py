@@ -225,13 +225,15 @@ def _next(state: State, surveyed: Survey, draws: int, random: np.random.Generato
     most = max(gain for gain, _, _ in refits)
     as_good = [refit for refit in refits if most - refit[0] < TWENTY_TIMES]
     # Equals in gain are told apart by what is usual of them, and not by a trifle; one at its bound comes last.
-    _, k, after = max(as_good, key=lambda refit: (not refit[2].fitted.active[-1].pinned, odds[refit[1]]))
+    gain, k, after = max(as_good, key=lambda refit: (not refit[2].fitted.active[-1].pinned, odds[refit[1]]))
     rivals = {j: other.fitted.active[-1] for _, j, other in as_good if j != k}
     share = dict(zip(odds, shares(list(odds.values())).tolist(), strict=True))
     # A name and what fits as well are told together: they share their probability.
     if sum(share[j] for _, j, _ in as_good) < POSSIBLE:
         return None
-    p_value = chance.tail(by_chance, float(z[k]))
+    # Of what its family let in, the gain decided: a discrepancy sized without it hides its score.
+    score = float(z[k]) if z[k] > least[k] else max(float(z[k]), float(np.sqrt(gain)))
+    p_value = chance.tail(by_chance, score)
     taken, theirs = after.fitted.active[-1], tuple(share[j] for j in rivals)
     return Found(taken, p_value, state, after, tuple(rivals.values()), share[k], theirs)
 
