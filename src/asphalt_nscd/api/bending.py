@@ -57,8 +57,9 @@ class Test(Result):
         frames/first, frames/second                 (b,)         bodies of a bond; n: head, n + 1: foot
         frames/point_m, frames/area_m2              (b, 3) (b,)  where a bond acts, and on what area
         frames/strength_N                           (b,)         to break it; infinite at head and foot
-        frames/bond_force_N                         (f, b, 3)    normal (tension positive), two shear;
-                                                                 zero if broken
+        frames/bond_force_N                         (f, b, 3)    normal, positive in tension; two shear, on the
+                                                                 second body, along network/frame of the
+                                                                 specimen; zero if broken
 
     Examples
     --------

@@ -46,7 +46,9 @@ def trim(
     reach: float,
     area: str = "paper",
 ) -> Specimen:
-    """Cut the specimen from the middle of a layer (length along x, width along y, height along z) and bond it.
+    """Cut the specimen from a layer (length along x, width along y, height along z) and bond it.
+
+    From the middle of its height; along its length and width it begins at the walls x = 0 and y = 0.
 
     `position` (n, 3) and `radius` (n,) in m are of the layer. Grains whose barycentre lies outside the shape are
     removed; each sphere's volume is reduced by the fraction `volume_reduction`; the density is raised until the mass is
