@@ -94,6 +94,9 @@ def test_a_force_that_is_commanded_ends_at_the_break(beam, pulled):
     most = pulled[1]["peak_force_N"]
     arrays, columns = ramp(beam, QUICK, Ramp(duration_s=0.02, steps=80, force_N=2.0 * most))
     steps = arrays["force_N"].size
+    assert (
+        columns["broken_bonds"] == arrays["broken"].size > arrays["broken_bonds"][-1]
+    )  # in the step that did not end
     assert columns["ended"] and columns["ended"] in told(columns) and 20 < steps < 80
     np.testing.assert_allclose(arrays["force_N"], most / 40.0 * np.arange(1, steps + 1), rtol=1e-4)
     assert columns["peak_force_N"] == pytest.approx(most, rel=0.15)

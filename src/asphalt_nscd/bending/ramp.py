@@ -87,7 +87,7 @@ def ramp(
     attributes: dict[str, Any] = {
         "specimen": model.name,
         "bonds": model.bonds,
-        "broken_bonds": count[-1],
+        "broken_bonds": len(run.broken),  # those of a last step that was not finished too
         "peak_force_N": float(run.force[peak]),
         "displacement_at_peak_m": float(arrays["displacement_m"][peak]),
         "broken_at_peak": count[peak],
