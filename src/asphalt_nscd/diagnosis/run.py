@@ -239,12 +239,7 @@ def _begin_with_campaigns(
             common = gain.nearest(diagnosis, diagnosis.ladder.start, specimen)
             errors = gain.averages(diagnosis, after, common)
             law["gain"]["in_sample"]["averages_by_temperature"] = errors
-    of_tests: dict[str, Any] = {
-        "probability": None,
-        "taken_off": 0.0,
-        "log10_shift": {},
-    }  # which no simulation has
-    content["ladder"][:0] = [] if rung is None else [rung | of_tests]
+    content["ladder"][:0] = [] if rung is None else [rung]
     return before
 
 

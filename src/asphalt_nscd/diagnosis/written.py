@@ -23,6 +23,17 @@ SCHEMA_VERSION = 3
 CONFINED_TO = {cause.name: cause.confined_to for cause in CATALOGUE}
 UNITS = {cause.name: cause.parameters[0].unit for cause in CATALOGUE}  # of amplitudes
 BEFORE_AFTER = ("before", "after")
+# Of a rung of the ladder that is no cause in the tests: what only those have.
+NO_CAUSE: dict[str, Any] = {
+    "where": None,
+    "log10_shift": {},
+    "probability": None,
+    "as_good": [],
+    "taken_off": 0.0,
+    "hangs_on": [],
+    "doubts": [],
+    "evidence": "",
+}
 RESIDUALS = {"E": "residual_E_{}_percent", "phase": "residual_phase_{}_deg"}
 _TEST = ["temperature_C", "frequency_Hz", "E_MPa", "phase_deg"]
 _FITTED = ["E_{}_MPa", "phase_{}_deg", *RESIDUALS.values()]

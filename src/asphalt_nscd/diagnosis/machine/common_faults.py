@@ -28,9 +28,9 @@ class Part:
 
 @dataclass(frozen=True)
 class Common:
-    """A cause that all campaigns share. value, std_error, between: in the unit of its amplitude.
+    """A cause that all campaigns share. value, std_error: in the unit of its amplitude.
 
-    between: standard deviation of what campaigns differ by beyond their errors; p_value: of the largest of all causes;
+    p_value: of the largest of all causes;
     campaigns, isotherms, frequencies: the same amplitude from each alone; differs: what it differs between by more than
     chance, of "campaigns", "isotherms" and "frequencies"; as_good: causes that fit as well.
     """
@@ -40,7 +40,6 @@ class Common:
     as_good: tuple[str, ...]
     value: float = 0.0
     std_error: float = 0.0
-    between: float = 0.0
     campaigns: tuple[Part, ...] = ()
     isotherms: tuple[Part, ...] = ()
     frequencies: tuple[Part, ...] = ()

@@ -207,7 +207,6 @@ class _Whole:
     value: float = 0.0
     std_error: float = np.inf
     z: float = 0.0
-    between: float = 0.0
     differ: float = 1.0  # chance that campaigns differ so much
 
 
@@ -237,7 +236,7 @@ def _together(each: Sequence[_Evidence], taken: Vector) -> _Whole:
         excess = (square - freedom) / (weight.sum() - float(weight @ weight) / weight.sum())
         wide = 1.0 / (1.0 / weight + excess)
         mean, error = float(wide @ value / wide.sum()), float((wide.sum() * free) ** -0.5)
-        return _Whole(mean, error, mean / error, float(np.sqrt(excess)), differ)
+        return _Whole(mean, error, mean / error, differ)
     # A mixture of sound campaigns and those astray, by EM: one far off keeps 1/LARGER^2 of its weight.
     for _ in range(ITERATIONS):
         sound, astray = _densities(value - mean, weight)
@@ -246,7 +245,7 @@ def _together(each: Sequence[_Evidence], taken: Vector) -> _Whole:
     error = float((pulled.sum() * free) ** -0.5)
     # A mixture is not normal: its likelihood ratio says how sure the mean is, not mean over error.
     ratio = 2.0 * free * (_log_likelihood(value - mean, weight) - _log_likelihood(value, weight))
-    return _Whole(mean, error, float(np.sign(mean) * np.sqrt(max(ratio, 0.0))), 0.0, differ)
+    return _Whole(mean, error, float(np.sign(mean) * np.sqrt(max(ratio, 0.0))), differ)
 
 
 def _log_likelihood(left: Vector, weight: Vector) -> float:
@@ -323,7 +322,6 @@ def _told(
         one,
         value=whole.value * unit,
         std_error=whole.std_error * unit,
-        between=whole.between * unit,
         campaigns=campaigns,
         isotherms=isotherms,
         frequencies=frequencies,

@@ -58,7 +58,8 @@ class Factor:
         self._own, failed = list[NDArray](), 0
         for at, own in zip(matrix.blocks, matrix.own, strict=True):
             lower, not_positive = dpotrf(_scaled(own, inner[at]), lower=1, overwrite_a=1)
-            self._cross[:, at] = dtrsm(1.0, lower, self._cross[:, at], side=1, lower=1, trans_a=1)
+            # In its place: columns next to one another are one piece of memory here.
+            dtrsm(1.0, lower, self._cross[:, at], side=1, lower=1, trans_a=1, overwrite_b=1)
             self._own.append(lower)
             failed += not_positive
         schur = _scaled(matrix.last, last)
@@ -70,7 +71,8 @@ class Factor:
     @cached_property
     def log_determinant(self) -> float:
         """ln of the determinant of B."""
-        return 2.0 * sum(float(np.log(np.diag(lower)).sum()) for lower in (*self._own, self._last))
+        diagonals = [lower.diagonal() for lower in (*self._own, self._last)]
+        return 2.0 * float(np.log(np.concatenate(diagonals)).sum())
 
     def halve(self, right: NDArray) -> NDArray:
         """L^-1 times columns (q, k), with L L^T = B and the law beside it: (q + p, k)."""
@@ -97,12 +99,14 @@ class Factor:
     @cached_property
     def diagonal(self) -> Vector:
         """Diagonal (q,) of what is left, from the triangular inverse: all of it would cost several times as much."""
-        matrix, squares = self.matrix, np.empty(self.s.size)
+        matrix, squares = self.matrix, np.zeros(self.s.size)
         if matrix.inner:
             below = dtrsm(1.0, self._last, self._cross, lower=1)
-        for at, lower in zip(matrix.blocks, self._own, strict=True):
-            inverse = dtrtri(lower, lower=1)[0]
-            squares[at] = _squares(inverse) + _squares(dtrmm(1.0, inverse, below[:, at], side=1, lower=1))
+            for at, lower in zip(matrix.blocks, self._own, strict=True):
+                inverse = dtrtri(lower, lower=1)[0]
+                squares[at] = _squares(inverse)
+                dtrmm(1.0, inverse, below[:, at], side=1, lower=1, overwrite_b=1)
+            squares[: matrix.inner] += _squares(below)
         squares[matrix.inner :] = _squares(dtrtri(self._last, lower=1)[0])[: self.s.size - matrix.inner]
         diagonal = np.empty(self.s.size)
         diagonal[matrix.order] = 1.0 - squares
@@ -119,7 +123,7 @@ def _scaled(gram: NDArray, s: Vector) -> NDArray:
     """1 + S G S, in columns, as LAPACK wants it: the Gram matrix is symmetric, and nothing is copied."""
     whole = gram * s
     whole *= s[:, None]
-    whole[np.diag_indices(s.size)] += 1.0
+    whole.ravel()[:: s.size + 1] += 1.0
     return whole.T
 
 

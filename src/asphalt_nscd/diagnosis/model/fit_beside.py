@@ -19,6 +19,7 @@ from asphalt_nscd.diagnosis.observed.observations import Observations
 Vector = NDArray[np.float64]
 SETTLED = 2  # rounds of fitting law and discrepancy in turn
 SMOOTHED = 3  # the same of roughness and discrepancy, at most
+SAME = 1e-9  # relative difference of starts that is rounding
 CONVERGED = 0.01  # change of the objective at which a fit beside a discrepancy ends
 
 
@@ -109,12 +110,14 @@ def answers(
     Which of three specimens is odd, or a phase that is off at every frequency for a modulus that is, may be told in two
     ways, and one start finds one of them.
     """
-    described = model.processes.described
+    starts = [lean(model.processes, variances, place)]
     if cause is None:
-        uncommon = np.where([one.kind == "all" for one in described], discrepancy.LEAST, variances)
-        yield likelihood.estimate(model, None, variances)
-        yield likelihood.estimate(model, None, uncommon)
-    yield likelihood.estimate(model, cause, lean(model.processes, variances, place))
+        of_all = [one.kind == "all" for one in model.processes.described]
+        starts = [variances, np.where(of_all, discrepancy.LEAST, variances), *starts]
+    for k, start in enumerate(starts):
+        # What is none already is left as it is: the starts are often one.
+        if not any(np.allclose(start, other, SAME, 0.0) for other in starts[:k]):
+            yield likelihood.estimate(model, cause, start)
     yield likelihood.estimate(model, cause, None)
 
 

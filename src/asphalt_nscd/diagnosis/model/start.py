@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from asphalt_nscd.diagnosis.model.bases import CLEAR, BurgersAtEach, FlexibleSpectrum
-from asphalt_nscd.diagnosis.model.joint import CONVERGED, Candidate, Fitted, Joint
+from asphalt_nscd.diagnosis.model.joint import CONVERGED, Fitted, Joint
 from asphalt_nscd.diagnosis.observed.noise import Noise
 from asphalt_nscd.diagnosis.observed.observations import Observations
 
@@ -24,17 +24,15 @@ NEAR = 3.0  # times the static modulus: tests whose loss modulus is below that s
 WLF_STARTS = ((12.0, 60.0), (12.0, 100.0), (20.0, 200.0), (30.0, 280.0))  # C1, C2 [K] at mid temperature
 
 
-def fit_spectrum(
-    observed: Observations, noise: Noise, active: tuple[Candidate, ...] = ()
-) -> tuple[Joint, Fitted]:
-    """Fit the flexible spectrum, of the roughness of largest marginal likelihood (Laplace); `active` causes are in."""
+def fit_spectrum(observed: Observations, noise: Noise) -> tuple[Joint, Fitted]:
+    """Fit the flexible spectrum, of the roughness of largest marginal likelihood (Laplace), without any cause."""
     best: tuple[float, Joint, Fitted] | None = None
     # Least squares on so many elements has poor local minima: several starts.
     for c1, c2 in WLF_STARTS:
         base = _spectrum(observed, c1, c2)
         joint = Joint(observed, base, noise)
         law = _first_law(observed, base, c1, c2)
-        fitted = joint.fit(law, np.zeros(len(observed.names)), active)
+        fitted = joint.fit(law, np.zeros(len(observed.names)))
         # starts that end in the same minimum differ by rounding: the first of them is kept, on every machine
         if best is None or fitted.objective < best[0] - 1e-3:
             best = fitted.objective, joint, fitted

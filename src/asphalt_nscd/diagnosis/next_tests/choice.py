@@ -33,7 +33,7 @@ def choose(model: Possible, questions: Sequence[Question], kinds: Sequence[str])
 
     `kinds` are those of the questions, as in `words.order_words.Open`.
     """
-    inquiry = Inquiry(model.linear, model.old, list(questions))
+    inquiry = Inquiry(model.linear, model.old, list(questions), model.known)
     orders: list[Order] = []
     waiting = list(model.sweeps)
     doubtful = [k for k, kind in enumerate(kinds) if kind in ("repeat", "level")]

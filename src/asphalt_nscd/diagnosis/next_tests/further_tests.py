@@ -18,7 +18,7 @@ from asphalt_nscd.diagnosis.model.bases import FlexibleSpectrum
 from asphalt_nscd.diagnosis.model.discrepancy import Process
 from asphalt_nscd.diagnosis.model.joint import Candidate, Fitted, Joint
 from asphalt_nscd.diagnosis.next_tests import sweeps
-from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Linear, Tested, parts
+from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Linear, Tested
 from asphalt_nscd.diagnosis.next_tests.sweeps import HALF, Costs, Sweep, half_strain_rows
 from asphalt_nscd.diagnosis.observed.copies import copied
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations, Vector
@@ -51,13 +51,14 @@ class Departure:
 class Possible:
     """The model at the tests done, then at all that could follow, then at tests of metal.
 
-    Columns of the effects are `candidates`, then `departures`; rows of metal, at `metal_frequencies` [Hz], follow those
-    of `table`.
+    `known` is what the tests done, `old`, say. Columns of the effects are `candidates`, then `departures`; rows of
+    metal, at `metal_frequencies` [Hz], follow those of `table`.
     """
 
     table: Observations
     linear: Linear
     old: Tested
+    known: Knowledge
     sweeps: tuple[Sweep, ...]
     candidates: tuple[Candidate, ...]
     departures: tuple[Departure, ...]
@@ -83,38 +84,42 @@ def possible(diagnosis: Diagnosis, costs: Costs) -> Possible:
     nuisance, precision = _law_derivatives(joint, at)
     keys = tuple(c.key for c in fitted.active)
     effects = np.column_stack([_effect(joint, at, candidate, keys) for candidate in candidates])
+    blocks = [nuisance]
     if diagnosis.laboratory is not None:  # every sweep is a mounting of its own
-        added = diagnosis.laboratory.factor(joint, at, noise.block)
-        nuisance, precision = np.hstack([nuisance, added]), block_diag(precision, np.eye(added.shape[1]))
+        blocks.append(diagnosis.laboratory.factor(joint, at, noise.block))
+        precision = block_diag(precision, np.eye(blocks[1].shape[1]))
     processes, roots, variances = _discrepancy(diagnosis, joint, at)
     ranks = [root.shape[1] for root in roots]
-    ends = np.cumsum([nuisance.shape[1], *ranks])
+    ends = np.cumsum([sum(block.shape[1] for block in blocks), *ranks])
     columns = [(one, slice(a, b)) for one, (a, b) in zip(processes, pairwise(ends), strict=True)]
-    nuisance = np.hstack([nuisance, *roots])
-    precision = block_diag(precision, np.diag(1.0 / np.repeat(variances, ranks)))
     metal = sweeps.metal_tests(observed)
-    rows = _metal_rows(metal, table, columns, nuisance)
     effects = np.vstack([effects, _metal_effects(metal, candidates)])
-    # Metal has a level of its own: its phase and its slope over frequency tell of the machine, its modulus hardly.
-    level = np.zeros((rows.shape[0] + table.size, 1), complex)
-    level[table.size :] = 1.0
-    nuisance = np.hstack([np.vstack([nuisance, rows]), level])
-    linear = Linear(nuisance, block_diag(precision, METAL_LEVEL**-2), effects)
+    whole = np.zeros((table.size + metal.size, int(ends[-1]) + 1), complex)
+    whole[: table.size, :-1] = np.hstack([*blocks, *roots])
+    # What the machine adds to all tests reaches metal. It has a level of its own besides: its phase and its slope over
+    # frequency tell of the machine, its modulus hardly.
+    like = [int(np.flatnonzero(table.frequency == f)[0]) for f in metal.frequency]
+    for process, of_process in columns:
+        if process.kind == "all":
+            whole[table.size :, of_process] = whole[like, of_process]
+    whole[table.size :, -1] = 1.0
+    of_processes = np.diag(1.0 / np.repeat(variances, ranks))
+    linear = Linear(whole, block_diag(precision, of_processes, METAL_LEVEL**-2), effects)
     n = observed.size
     old = Tested(np.arange(n), sweeps.scatter_of(noise.within[:, :n], noise.shared[:, :n], noise.block[:n]))
     further = [*sweeps.sweeps_at(observed, table, noise, costs)]
     further += sweeps.sweeps_on_metal(metal, table.size, noise, costs)
     known = Knowledge(linear, [old])
     # The law stands at its best already, so that only the discrepancy moves.
-    left = parts(observed.logarithm - fitted.modelled)
-    moved = known.expected(parts(linear.nuisance[old.rows]).T @ np.linalg.solve(old.scatter, left))
+    moved = known.mean(observed.logarithm - fitted.modelled)
     departures = [
         *_nonlinear_departures(diagnosis, table, linear, moved, columns),
         *(_again(diagnosis, table, linear, one) for one in _odd(diagnosis)),
         *_repeats(diagnosis, table, at.modelled + (linear.nuisance @ moved)[: table.size], linear),
     ]
     linear = replace(linear, effects=np.column_stack([linear.effects, *(one.effect for one in departures)]))
-    return Possible(table, linear, old, tuple(further), candidates, tuple(departures), metal.frequency)
+    known = known.with_effects(linear.effects)
+    return Possible(table, linear, old, known, tuple(further), candidates, tuple(departures), metal.frequency)
 
 
 def _repeats(
@@ -240,13 +245,3 @@ def _metal_effects(metal: Observations, candidates: Sequence[Candidate]) -> Comp
             )
             out[:, k] = np.log(high / low) / 2e-3
     return out
-
-
-def _metal_rows(metal: Observations, table: Observations, columns: Columns, nuisance: Complex) -> Complex:
-    """Rows (m, q) of the nuisance for tests of metal, which only what the machine adds to all tests reaches."""
-    rows = np.zeros((metal.size, nuisance.shape[1]), complex)
-    like = [int(np.flatnonzero(table.frequency == f)[0]) for f in metal.frequency]
-    for process, at in columns:
-        if process.kind == "all":
-            rows[:, at] = nuisance[like, at]
-    return rows

@@ -19,6 +19,7 @@ from scipy.linalg import cho_solve, solve_triangular
 
 Matrix = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Vector = NDArray[np.float64]
 LEAST = 1e-9  # information of a prior that says nothing
 TOGETHER = 128  # sets of tests that are weighed at once, so that memory stays small
 
@@ -49,33 +50,56 @@ def parts(values: Complex) -> Matrix:
     return np.concatenate([values.real, values.imag])
 
 
+def _whitened(lower: NDArray, values: Matrix) -> Matrix:
+    """Values (m, ...) in units of a covariance of this lower Cholesky factor (m, m)."""
+    return np.asarray(solve_triangular(lower, values, lower=True, check_finite=False))
+
+
 class Knowledge:
     """What some tests say; information (K, K) is of the amplitudes, with everything else integrated out."""
 
     def __init__(self, linear: Linear, tested: Sequence[Tested]) -> None:
-        q, k = linear.nuisance.shape[1], linear.effects.shape[1]
-        gram, cross, own = linear.precision + LEAST * np.eye(q), np.zeros((q, k)), np.zeros((k, k))
+        gram = linear.precision + LEAST * np.eye(linear.nuisance.shape[1])
+        # Of each set of tests: its rows, the root of its scatter, and the nuisance in units of that.
+        self._done: list[tuple[NDArray[np.int64], NDArray, Matrix]] = []
         for tests in tested:
             lower = np.linalg.cholesky(tests.scatter)
-            h, d = (
-                solve_triangular(lower, parts(values[tests.rows]), lower=True, check_finite=False)
-                for values in (linear.nuisance, linear.effects)
-            )
-            gram, cross, own = gram + h.T @ h, cross + h.T @ d, own + d.T @ d
+            h = _whitened(lower, parts(linear.nuisance[tests.rows]))
+            gram += h.T @ h
+            self._done.append((tests.rows, lower, h))
         self._h, self._lower = parts(linear.nuisance), np.linalg.cholesky(gram)
-        followed = self.expected(cross)  # by how much x takes up each effect in these tests
+        self._judge(linear.effects)
+
+    def with_effects(self, effects: Complex) -> Knowledge:
+        """The same of other effects (N, K)."""
+        new = copy(self)
+        new._judge(effects)
+        return new
+
+    def _judge(self, effects: Complex) -> None:
+        k = effects.shape[1]
+        cross, own = np.zeros((self._lower.shape[0], k)), np.zeros((k, k))
+        for rows, lower, h in self._done:
+            d = _whitened(lower, parts(effects[rows]))
+            cross, own = cross + h.T @ d, own + d.T @ d
+        followed = self._expected(cross)  # by how much x takes up each effect in these tests
         self.information = own - cross.T @ followed
         # Of each effect, what these tests do not predict.
-        self._left = parts(linear.effects) - self._h @ followed
+        self._left = parts(effects) - self._h @ followed
 
     @cached_property
     def _spread(self) -> Matrix:
         """(2N, q): its product with its transpose is the covariance of ln|E*| and phase that these tests leave."""
-        return solve_triangular(self._lower, self._h.T, lower=True, check_finite=False).T
+        return _whitened(self._lower, self._h.T).T
 
-    def expected(self, weighed: Matrix) -> Matrix:
-        """Mean (q, ...) of x from the first tests; `weighed` (q, ...) is H^T of the inverse scatter times the data."""
-        return cho_solve((self._lower, True), weighed, check_finite=False)
+    def mean(self, left: Complex) -> Vector:
+        """Mean (q,) of x where the first set of tests departs by `left` (n,) in ln E* from the model."""
+        _, lower, h = self._done[0]
+        return self._expected(h.T @ _whitened(lower, parts(left)))
+
+    def _expected(self, weighed: Matrix) -> Matrix:
+        """Mean (q, ...) of x; `weighed` (q, ...) is H^T of the inverse scatter times the data."""
+        return np.asarray(cho_solve((self._lower, True), weighed, check_finite=False))
 
     def gained(self, tests: Sequence[Tested]) -> Matrix:
         """Information (M, K, K) of the amplitudes that each of M sets of further tests would add."""
@@ -84,29 +108,36 @@ class Knowledge:
         for size in np.unique(sizes[sizes > 0]):
             alike = np.flatnonzero(sizes == size)
             for some in np.array_split(alike, -(-alike.size // TOGETHER)):
-                half = self._new(np.array([tests[k].rows for k in some]), [tests[k].scatter for k in some])[0]
+                rows, scatter = np.array([tests[k].rows for k in some]), [tests[k].scatter for k in some]
+                lower, left, _ = self._innovation(rows, scatter)
+                half = np.linalg.solve(lower, left)
                 more[some] = half.transpose(0, 2, 1) @ half
         return more
 
-    def _new(self, rows: NDArray[np.int64], scatter: Sequence[Matrix]) -> tuple[Matrix, Matrix]:
-        """Effects (M, 2n, K) and spread (M, 2n, q) of M sets of n tests, `rows` (M, n), over what was not known."""
-        # The innovation: scatter of the new tests, and what the old ones leave open of law and discrepancy.
+    def _innovation(
+        self, rows: NDArray[np.int64], scatter: Sequence[Matrix]
+    ) -> tuple[Matrix, Matrix, Matrix]:
+        """Of M sets of n tests, `rows` (M, n), over what was not known: root (M, 2n, 2n) of the covariance of scatter
+        and of what the old tests leave open; effects (M, 2n, K); and spread (M, 2n, q), both in plain units.
+        """
         at = np.concatenate([rows, rows + self._left.shape[0] // 2], axis=1)
         spread = self._spread[at]
         lower = np.linalg.cholesky(np.array(scatter) + spread @ spread.transpose(0, 2, 1))
-        return np.linalg.solve(lower, self._left[at]), np.linalg.solve(lower, spread)
+        return lower, self._left[at], spread
 
     def posterior(self, tests: Tested) -> Knowledge:
         """What is known with further tests done."""
         # Updated by the tests taken alone: a factor anew would be of all q unknowns, after each order.
-        effects, spread = (value[0] for value in self._new(tests.rows[None], [tests.scatter]))
+        lower, *plain = (value[0] for value in self._innovation(tests.rows[None], [tests.scatter]))
+        effects, spread = (_whitened(lower, value) for value in plain)
         new = copy(self)
         new.information = self.information + effects.T @ effects
         new._left = self._left - self._spread @ (spread.T @ effects)
         # (1 - S^T S)^(1/2), with singular values s < 1 of S.
         _, s, vector = np.linalg.svd(spread, full_matrices=False)
         shrunk = 1.0 - np.sqrt(np.maximum(1.0 - s**2, 0.0))
-        new._spread = self._spread - (self._spread @ vector.T * shrunk) @ vector
+        new._spread = (self._spread @ vector.T * -shrunk) @ vector
+        new._spread += self._spread
         return new
 
 
@@ -147,10 +178,16 @@ class Question:
 class Inquiry:
     """Open questions, each with the tests that count for it; the state of knowledge as tests are chosen."""
 
-    def __init__(self, linear: Linear, old: Tested, questions: Sequence[Question]) -> None:
+    def __init__(
+        self, linear: Linear, old: Tested, questions: Sequence[Question], known: Knowledge | None = None
+    ) -> None:
+        """`known` is what all of the `old` tests say, where that was found already."""
         self.questions = questions
         kept = {one.kept.tobytes(): one.kept for one in questions}
-        self._known = {key: Knowledge(linear, [_counted(old, rows)]) for key, rows in kept.items()}
+        self._known = {
+            key: known if known and rows[old.rows].all() else Knowledge(linear, [_counted(old, rows)])
+            for key, rows in kept.items()
+        }
 
     def gains(self, tests: Sequence[Tested]) -> Matrix:
         """What each of M sets of tests would add to each of Q questions (M, Q) [nats]."""

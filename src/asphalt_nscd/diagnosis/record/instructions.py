@@ -21,7 +21,7 @@ from asphalt_nscd.diagnosis.model.joint import Candidate
 from asphalt_nscd.diagnosis.next_tests import fixed_orders
 from asphalt_nscd.diagnosis.next_tests.choice import MOST, choose
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure, Possible, possible
-from asphalt_nscd.diagnosis.next_tests.information import Knowledge, Question
+from asphalt_nscd.diagnosis.next_tests.information import Question
 from asphalt_nscd.diagnosis.next_tests.sweeps import METAL, Costs
 from asphalt_nscd.diagnosis.observed.observations import Observations
 from asphalt_nscd.diagnosis.record import rungs
@@ -68,7 +68,7 @@ def open_questions(diagnosis: Diagnosis, model: Possible) -> list[Open]:
     active = tuple(range(len(diagnosis.ladder.fitted.active)))
     others = list(enumerate(model.candidates))[len(active) :]
     everything = np.ones(model.linear.nuisance.shape[0], bool)
-    known = Knowledge(model.linear, [model.old]).information
+    known = model.known.information
     found: list[Open] = []
     rivals = {rung.candidate.key: {one.key for one in rung.rivals} for rung in diagnosis.ladder.rungs}
     for k in active:

@@ -78,7 +78,7 @@ class LawOfMix:
         found = []
         for name, kind in LAWS.items():
             taken = isinstance(self.law, kind)
-            one = self if taken else law_of_mix(self.mix, name, self.volumetrics)
+            one = self if taken else LawOfMix(self.mix, _fit(self.mix, name, self.volumetrics))
             about = {"law": name, "title": one.law.title, "parameters": len(parameters(one.law))}
             found.append({**about, **one.misses(diagnosis), "taken": taken})
         return found
@@ -108,20 +108,24 @@ def law_of_mix(
     misfit of the form exceeds the scatter, which is therefore no measure of what to trust. The covariance is that of
     the mixture at the tests, carried to the parameters, with that misfit.
     """
+    fit, tests = _fit(mix, form, volumetrics), mix.tests
+    misfit = np.repeat(np.square(LawOfMix(mix, fit).misfit_of_form), tests.size)
+    return LawOfMix(
+        mix, fit.restate(mix.covariance(tests.omega, tests.temperature) + np.diag(misfit)), volumetrics
+    )
+
+
+def _fit(mix: Mixture, form: str, volumetrics: tuple[float, float] | None) -> Fit[Spectrum]:
     tests = mix.tests
     reference = float(tests.isotherms[tests.isotherms.size // 2])
     shift = "wlf" if tests.isotherms.size > 2 and tests.size > LEAST_TESTS else "arrhenius"
-    fit = fit_spectrum(
+    return fit_spectrum(
         tests.omega,
         tests.temperature,
         tests.modulus * np.exp(-mix.effect(tests)),
         reference,
         Form(form, shift),
         prior=prior_of(form, volumetrics),
-    )
-    misfit = np.repeat(np.square(LawOfMix(mix, fit).misfit_of_form), tests.size)
-    return LawOfMix(
-        mix, fit.restate(mix.covariance(tests.omega, tests.temperature) + np.diag(misfit)), volumetrics
     )
 
 

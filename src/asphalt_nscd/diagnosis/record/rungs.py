@@ -14,7 +14,7 @@ from asphalt_nscd.diagnosis.search.diagnose import Diagnosis
 from asphalt_nscd.diagnosis.search.ladder import Rung
 from asphalt_nscd.diagnosis.simulation import gain
 from asphalt_nscd.diagnosis.simulation.simulated import NumericalSpecimen
-from asphalt_nscd.diagnosis.written import interval_95, name_at, widening
+from asphalt_nscd.diagnosis.written import NO_CAUSE, interval_95, name_at, widening
 
 
 def cause_rung(
@@ -90,21 +90,14 @@ def law_rung(diagnosis: Diagnosis, specimen: NumericalSpecimen, held: HeldOut) -
         held_out["leave_one_frequency_out"] = gain.compare_errors(diagnosis, without_law, predicted)
     # As the last fit has them: a delay, say, that is not yet taken would be taken for relaxation.
     shift = spectrum.log_shift(fitted.law, observed.isotherms)[0] / LN10
-    return {
+    return NO_CAUSE | {
         "cause": "relaxation_spectrum",
-        "where": None,
         "parameters": parameters | {"reference_temperature": _value(spectrum.reference_temperature, "degC")},
         "log10_shift": {f"{t:g}": float(s) for t, s in zip(observed.isotherms, shift, strict=True)},
         "p_value": diagnosis.baseline_p,
         "gain": {"in_sample": gain.compare_errors(diagnosis, before, after), "held_out": held_out},
-        "as_good": [],
-        "probability": None,
         "established": not diagnosis.too_few,
-        "taken_off": 0.0,
-        "hangs_on": [],
-        "doubts": [],
         "sentence": "the mix relaxes over many decades of time; one Burgers law for each temperature has two times",
-        "evidence": "",
         "confirmed_by": "tests over more decades of frequency, or creep at the warmest temperature",
     }
 

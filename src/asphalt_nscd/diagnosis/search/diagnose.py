@@ -70,8 +70,11 @@ class Diagnosis:
 
     def established(self, rung: Rung) -> bool:
         """Whether the whole table carries a name and it has no rival, named or not; never of too few tests."""
-        stays = self._undisputed(rung) and not self._is_as_of_mixes(rung)
-        return not self.too_few and rung.probability >= NAMED and stays
+        key = rung.candidate.key
+        disputed = rung.rivals or key in self.doubts or self.ladder.hangs_on[key]
+        if self.too_few or disputed or rung.probability < NAMED:
+            return False
+        return not self._is_as_of_mixes(rung)
 
     def probability(self, rung: Rung) -> float:
         """Probability of a name as stated, calibrated on drawn tables: all that speaks for or against it counts."""
@@ -103,11 +106,6 @@ class Diagnosis:
         size, error = abs(candidate.values[0]), float(self.ladder.std_errors(candidate)[0])
         least = max(1.0 - CONFIDENCE * error / max(size, 1e-300), 0.0)
         return bool(least * np.quantile(np.abs(turned), 0.9) < MIXES_TURN)
-
-    def _undisputed(self, rung: Rung) -> bool:
-        if rung.rivals or rung.candidate.key in self.doubts:
-            return False
-        return not self.ladder.hangs_on[rung.candidate.key]
 
 
 def diagnose(

@@ -15,7 +15,7 @@ import pandas as pd
 
 from asphalt_nscd.diagnosis.observed.observations import Complex, Observations
 from asphalt_nscd.diagnosis.simulation.numerics import NEAR_DEGREES, NEAR_FREQUENCY
-from asphalt_nscd.diagnosis.written import interval_95
+from asphalt_nscd.diagnosis.written import NO_CAUSE, interval_95
 from asphalt_nscd.measurements.tables import KEYS, MODULUS, read_tests
 
 NAME = "bond_mapping"
@@ -62,19 +62,15 @@ def bond_mapping(
         f"the same laws in {len(ratio)} packing{'s' if len(ratio) > 1 else ''}: |E*| is {before} of the law as in the "
         f"paper, {after} with facets"
     )
-    return {
+    return NO_CAUSE | {
         "cause": NAME,
-        "where": None,
         "parameters": {
             "modulus_over_law": _estimate(ratio),
             "modulus_over_law_with_facets": _estimate(by_facets),
         },
         "p_value": None,
         "gain": {"in_sample": {"averages_by_temperature": averages}, "held_out": {}},
-        "as_good": [],
         "established": True,
-        "hangs_on": [],
-        "doubts": [],
         "sentence": SENTENCE,
         "evidence": evidence,
         "confirmed_by": CONFIRMED_BY,
