@@ -121,6 +121,9 @@ def test_the_mean_phase_is_uncertain_by_what_specimens_differ_by_beyond_what_is_
     )  # fmt: skip
     beyond = np.var(levels, ddof=1) - np.radians(0.3) ** 2
     assert mixture._apart(one) == pytest.approx(student(2).ppf(0.975) * np.sqrt(beyond / 3.0))
+    observed.specimen = np.repeat([0, 4], 3)  # of two, the mean of a difference of 2/3 deg
+    of_two = np.diff([off[:3].mean(), off[3:].mean()])[0] ** 2 / 2.0 - np.radians(0.3) ** 2
+    assert mixture._apart(one) == pytest.approx(student(1).ppf(0.975) * np.sqrt(of_two / 2.0))
     observed.logarithm = 0.2j + 0.001j * np.arange(6)
     assert mixture._apart(one) == 0.0
     observed.specimen = np.zeros(6, int)

@@ -89,6 +89,8 @@ def test_scale_of_specimens_joins_what_is_usual_and_what_the_table_shows():
         noise = scatter.estimate(table, np.zeros((table.size, 0)), scales)
         wanted = np.sqrt((8 * 0.03**2 + 4 * (1.4826 * spread) ** 2) / 12)
         assert noise is not None and noise.scale == pytest.approx(wanted, rel=1e-6)
+    assert scatter._scale(np.array([0.4])) == pytest.approx(0.03)  # one says nothing, two not which is off
+    assert scatter._scale(np.array([0.4, -0.4])) == pytest.approx(0.03 * np.sqrt(8.0 / 9.0))
 
 
 def test_a_stated_scatter_is_taken_as_it_is():
