@@ -10,7 +10,7 @@ import pytest
 
 from asphalt_nscd.files.csvinput import read_csv
 from asphalt_nscd.files.errors import InputError
-from asphalt_nscd.measurements.geometry import read_geometry
+from asphalt_nscd.measurements.geometry import read_geometry, read_shape
 from asphalt_nscd.measurements.limits import least_modulus
 from asphalt_nscd.measurements.reduction import (
     KEYS,
@@ -357,6 +357,8 @@ def test_one_mapping_holds_for_all_specimens_also_as_json(write):
     expected = {"A": PAPER, "B": PAPER}
     assert read_geometry(MAPPING, ["A", "B", "A"]) == expected
     assert read_geometry(write(json.dumps(MAPPING), name="geometry.json"), ["A", "B"]) == expected
+    table = write(G, "A,25,60,25,250,0.6,0.235", "specimen,25,56,25,250,0.6,0.235", name="geometry.csv")
+    assert read_shape(table) == PAPER
 
 
 @pytest.mark.parametrize("form", ["moduli", "peaks"])

@@ -6,6 +6,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.rheology.laws_of_modulus import CAM, LawOfModulus, Sigmoid
 from asphalt_nscd.rheology.parabolic import TwoS2P1D
 from asphalt_nscd.rheology.priors import prior_of
@@ -141,12 +142,18 @@ def test_a_law_file_gives_its_covariance_back():
     content = fit_content(fit, "fitted", Uncertainty(fit.covariance, (10.0, np.inf), (0.01, 0.002)))
     back = uncertainty_of("law.json", content, fit.law)
     assert back.covariance == pytest.approx(fit.covariance) and back.freedom == (10.0, np.inf)
-    assert back.form == (0.01, 0.002)
-    plain = Uncertainty(fit.covariance, back.freedom).half(fit.law, OMEGA, TEMPERATURE)
-    wide = back.half(fit.law, OMEGA, TEMPERATURE)
-    assert np.sqrt(wide.real**2 - plain.real**2) == pytest.approx(
-        np.full(OMEGA.size, 2.2281 * 0.01), rel=1e-3
-    )
+    assert back.form == (0.01, 0.002) and back.tested == (-np.inf, np.inf)
+    said = content["covariance_of_logarithms"]
+    assert uncertainty_of("law.json", {}, fit.law) is None
+    for wrong in (
+        {"values": np.eye(2).tolist()},
+        {"parameters": said["parameters"][::-1]},
+        {"freedom": [10.0]},
+        {"tested_C": [0.0]},
+        {"values": (np.array(said["values"]) * np.nan).tolist()},
+    ):
+        with pytest.raises(InputError, match="law.json: key 'covariance_of_logarithms' is damaged"):
+            uncertainty_of("law.json", {"covariance_of_logarithms": said | wrong}, fit.law)
     low, high = content["interval_95"]["E_glassy_Pa"]
     by = np.exp(2.2281 * np.sqrt(fit.covariance[1, 1]))  # Student's t of ten
     assert (low, high) == pytest.approx((content["E_glassy_Pa"] / by, content["E_glassy_Pa"] * by), rel=1e-4)

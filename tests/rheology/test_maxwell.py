@@ -95,6 +95,7 @@ def test_a_solid_has_a_long_term_modulus_of_the_share_asked_for():
     solid = MaxwellSeries(0.0, (3e9, 1e9), (1.0, 2.0)).solid(1e-3)
     assert solid.long_term / solid.instantaneous == pytest.approx(1e-3)
     assert MaxwellSeries(1e8, (1e9,), (1.0,)).solid(1e-3).long_term == 1e8
+    assert MaxwellSeries(1e9, (3e9, 1e9), (1.0, 2.0)).weights == (0.6, 0.2)
 
 
 def test_the_largest_allowed_number_of_branches_is_tried(monkeypatch):

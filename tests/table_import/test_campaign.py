@@ -83,6 +83,11 @@ def test_exports_and_tables_come_together(tmp_path):
     ]
 
 
+def test_what_does_not_say_its_origin_beside_what_does_is_measured(tmp_path):
+    drawn = export("A", 4).replace("Test Information", "Comments,Synthetic: drawn")
+    assert columns(exports(tmp_path, a=drawn, t=TABLE), "origin") == [["synthetic"] * 2 + ["measured"] * 2]
+
+
 def test_what_holds_no_tests_is_passed_over_with_the_reason(tmp_path):
     (tmp_path / "b.csv.bak").write_text(export("B", 4))
     (tmp_path / "scan.pdf").write_bytes(b"%PDF")

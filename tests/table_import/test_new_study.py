@@ -85,6 +85,13 @@ def test_small_study_keeps_the_measured_geometry_beside_the_simulated_one():
     assert study["specimens"]["seeds"] == [1]
 
 
+def test_of_several_geometries_the_first_is_simulated():
+    keys = list(PRISM)
+    lines = [f"{s},50,{foot},50,300,1.8,0.2" for s, foot in ((2, 60), (1, 70))]
+    Path("g.csv").write_text("\n".join([",".join(["specimen", *keys]), *lines]) + "\n")
+    assert made(geometry=Path("g.csv"))["specimens"]["geometry"]["B_mm"] == 70
+
+
 def test_prism_is_simulated_as_a_prism():
     study = made(geometry=PRISM)
     assert study["specimens"]["geometry"] == PRISM

@@ -181,7 +181,7 @@ LONG = "T_C;f_Hz;E_MPa;phi_deg"
         ("f_Hz;E_MPa at 15 °C;phi_deg at 20 °C", ["10;9000;20"], ["not the same for all quantities"]),
         ("T_C;f_Hz;E_MPa at 15 °C;phi_deg at 15 °C", ["10;9;9000;20"], ["not the same for all quantities"]),
         (LONG, ["15;10;9000,5;20.1"], ["'9000,5' (line 2)", "'20.1' (line 2)"]),
-        (LONG, ["15;10;1.234,5;20"], ["'1.234,5'"]),
+        (LONG, ["15;10;1.234,5;20"], ["'1.234,5' seems to group its digits"]),
         (LONG, ["15;10;;20"], ["line 2: E_MPa", "empty"]),
         (LONG, ["15;10;9e3x;20"], ["'9e3x'"]),
         (LONG, ["15;10;9_000;20"], ["'9_000'"]),
