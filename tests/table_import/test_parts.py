@@ -14,7 +14,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.table_import.computed import computed_specimens
 from asphalt_nscd.table_import.duration import duration
 from asphalt_nscd.table_import.grid import grid
-from asphalt_nscd.table_import.header_lines import told_above
+from asphalt_nscd.table_import.header_lines import require_rows, tabulated, told_above
 from asphalt_nscd.table_import.skipped_files import SkippedFile, common_mend, listed
 from asphalt_nscd.table_import.skipped_files import refused as refused_file
 from asphalt_nscd.table_import.storage_loss import whole_modulus
@@ -39,6 +39,21 @@ def test_what_a_line_above_a_table_says_of_all_its_tests(cells, told):
     # of two lines the first
     both = told_above([(1, cells), (2, ["x"]), (3, ["T = 21 °C"])])
     assert both == ({"T (°C)": "21"} | told, {0, 2} if told else {2})
+
+
+def test_of_two_lines_above_names_the_nearer_says_the_temperature():
+    rows = [["", "4 °C"], ["", "21 °C"], ["f (Hz)", "E (MPa)", "phi (°)"], ["10", "9000", "20"]]
+    cells = tabulated(Path("t.csv"), list(enumerate(rows, 1)), [])
+    assert cells.at == [{}, {"T (°C)": "21"}, {"T (°C)": "21"}] and cells.rows == [(4, rows[3])]
+
+
+@pytest.mark.parametrize(("warmest", "turned"), [("6.9", False), ("7.1", True)])
+def test_a_column_for_each_test_is_an_export_of_one_temperature_or_to_be_turned(warmest, turned):
+    rows = [(1, ["T (°C)", "4", warmest]), (2, ["f (Hz)", "1", "10"]), (3, ["E (MPa)", "9000", "9900"])]
+    if turned:
+        refused(require_rows, Path("t.csv"), rows, names=["t.csv", "each test has a column"])
+    else:
+        require_rows(Path("t.csv"), rows)
 
 
 CONDITIONS = [(t, f) for t in (5, 20) for f in (1.0, 10.0)]

@@ -115,6 +115,15 @@ def test_the_grade_of_a_binder_is_no_temperature(tmp_path):
     assert campaign.table.numbers("temperature_C").tolist() == [4] * 3
 
 
+def test_a_set_value_stands_before_a_reading_of_the_header(tmp_path):
+    text = EXPORT.format(header="4", specimen="Mix-7", readings="")
+    (tmp_path / "e.csv").write_text(f"Temperature,4.6\n{text}", "utf-8")
+    assert read_campaign([tmp_path / "e.csv"])[0].table.numbers("temperature_C").tolist() == [4] * 3
+    text = f"Temperature (°F),39.2\n{text}".replace("Target test temperature,4\n", "")
+    (tmp_path / "e.csv").write_text(text, "utf-8")
+    assert read_campaign([tmp_path / "e.csv"])[0].table.numbers("temperature_C").tolist() == [4] * 3
+
+
 @pytest.mark.parametrize(("unit", "celsius"), [("Celsius", 4), ("degrees F", -15.56), ("K", -269.15)])
 def test_units_of_the_target(tmp_path, unit, celsius):
     text = EXPORT.format(header="4", specimen="Mix-7", readings="")
