@@ -45,7 +45,7 @@ def naive_bond_sweeps(
     most_sweeps,
     visits,
 ):
-    """Gauss-Seidel bond by bond on dense rows: (reaction, velocity, sweeps). Bond law U = b - (S/w) R.
+    """Gauss-Seidel bond by bond on dense rows: (reaction, velocity, sweeps, last change). Bond law U = b - (S/w) R.
 
     visits (b,): the bonds in the order of a sweep forth.
     """
@@ -65,6 +65,7 @@ def naive_bond_sweeps(
             velocity += dt * inverse * (g.T @ delta)
             reaction[own] = new
             changed, size = changed + delta @ delta, size + new @ new
-        if np.sqrt(changed / size) < tolerance:
+        change = np.sqrt(changed / size)
+        if change < tolerance:
             break
-    return reaction, velocity, sweep + 1
+    return reaction, velocity, sweep + 1, change

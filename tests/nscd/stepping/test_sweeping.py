@@ -37,7 +37,7 @@ def test_naive_twin(small, most_sweeps, tolerance, rounding=1e-11):
     """Three steps from rest, stopped after a few sweeps: the same unconverged numbers, to rounding."""
     stepper = sweeping(small, STIFF, tolerance, most_sweeps)
     law = STIFF.step(DT)
-    sweeps = 0
+    sweeps, changes = 0, []
     for driven in (1e-3, 2e-3, -1e-3):
         before = stepper.state
         explicit = law.explicit_part(before.sigma, before.memory)
@@ -45,11 +45,12 @@ def test_naive_twin(small, most_sweeps, tolerance, rounding=1e-11):
         velocity = before.velocity + DT * (small.load + small.operator.T @ reaction) / small.mass
         velocity[small.driven] = driven
         old_velocity, old_kelvin = before.velocity.copy(), before.memory.copy()
-        reaction, velocity, done = naive_bond_sweeps(
+        reaction, velocity, done, change = naive_bond_sweeps(
             small.operator, small.weight, small.mass, small.driven, law.compliance, explicit, reaction, velocity,
             DT, tolerance, most_sweeps, stepper.visits,
         )  # fmt: skip
         force, sweeps = stepper.advance(driven), sweeps + done
+        changes.append(change)
         size = np.abs(reaction).max()
         np.testing.assert_allclose(small.weight * stepper.state.sigma, reaction, rtol=0, atol=rounding * size)
         np.testing.assert_allclose(
@@ -64,7 +65,7 @@ def test_naive_twin(small, most_sweeps, tolerance, rounding=1e-11):
         )
         kelvin = law.kelvin_decay[:, None] * old_kelvin - law.kelvin_gain[:, None] * reaction / small.weight
         np.testing.assert_allclose(stepper.state.memory, kelvin, rtol=0, atol=rounding * np.abs(kelvin).max())
-    assert stepper.sweeps == sweeps
+    assert stepper.sweeps == sweeps and stepper.largest_change == pytest.approx(max(changes), rel=1e-9)
 
 
 def test_run_to_convergence_it_solves_the_condensed_equations(small):
