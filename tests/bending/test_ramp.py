@@ -101,9 +101,8 @@ def test_a_force_that_is_commanded_ends_at_the_break(beam, pulled):
     np.testing.assert_allclose(arrays["force_N"], most / 40.0 * np.arange(1, steps + 1), rtol=1e-4)
     assert columns["peak_force_N"] == pytest.approx(most, rel=0.15)
     work = arrays["force_N"] @ np.diff(arrays["displacement_m"], prepend=0.0)
-    assert columns["energy_actuator_J"] == pytest.approx(
-        work, rel=1e-6
-    )  # on the specimen, not on the soft clamp
+    # on the specimen, not on the soft clamp
+    assert columns["energy_actuator_J"] == pytest.approx(work, rel=1e-6)
     assert columns["energy_devices_J"] == 0.0 and abs(columns["energy_error"]) < 1e-9
 
 

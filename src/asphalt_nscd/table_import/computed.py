@@ -92,9 +92,8 @@ def _step(values: NDArray[np.float64], units: Sequence[float]) -> float:
     """Coarsest decimal step, in one of the units, that divides all values: twice their rounding; 0 if none does."""
     values = values[np.isfinite(values)]
     steps = sorted((unit * 10.0**-digits for unit in units for digits in range(7)), reverse=True)
-    largest = np.abs(values).max(
-        initial=0.0
-    )  # a CV of 0.05 is no multiple of a GPa, though nearly none of it
+    # a CV of 0.05 is no multiple of a GPa, though nearly none of it
+    largest = np.abs(values).max(initial=0.0)
     return next(
         (
             step
