@@ -228,11 +228,6 @@ def test_only_head_and_channel_act_on_metal():
         np.zeros(2),
     ]
     assert found == pytest.approx(np.array(expected).T, rel=1e-3, abs=1e-12)
-    columns = [(Process("all", "phase"), slice(0, 1)), (Process("isotherm", "phase", 0.0), slice(1, 2))]
-    nuisance = np.column_stack([TABLE.frequency, np.ones(TABLE.size)]).astype(complex)
-    assert further_tests._metal_rows(metal, TABLE, columns, nuisance) == pytest.approx(
-        np.array([[1, 0], [10, 0]])
-    )
 
 
 def sweep(specimen, temperature, hours, half=False, frequencies=(1.0, 10.0)):
@@ -261,7 +256,7 @@ def chosen(monkeypatch, kinds, *told):
     monkeypatch.setattr(choice, "Inquiry", lambda *_: Told(given))
     waiting = tuple(replace(one, tested=k) for k, (one, _) in enumerate(told))
     model = SimpleNamespace(
-        linear=None, old=None, sweeps=waiting, table=SimpleNamespace(names=("A", "B", NEW))
+        linear=None, old=None, known=None, sweeps=waiting, table=SimpleNamespace(names=("A", "B", NEW))
     )
     return choice.choose(model, [None] * 2, kinds)
 

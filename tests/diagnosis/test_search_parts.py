@@ -259,16 +259,18 @@ def test_a_fault_that_turns_most_phases_by_less_than_a_degree_may_be_a_mix_s(siz
         ([], {}, ["4 degC"], False),
     ],
 )
-def test_a_name_is_established_if_nothing_speaks_against_it(rivals, doubted, hangs_on, undisputed):
+def test_a_name_is_established_if_nothing_speaks_against_it(
+    rivals, doubted, hangs_on, undisputed, monkeypatch
+):
     rung = SimpleNamespace(candidate=candidate("phase_offset"), rivals=rivals, probability=0.95)
-    found = SimpleNamespace(doubts=doubted, ladder=SimpleNamespace(hangs_on={rung.candidate.key: hangs_on}))
-    assert Diagnosis._undisputed(found, rung) is undisputed
-    found = SimpleNamespace(_undisputed=lambda _: undisputed, _is_as_of_mixes=lambda _: False, too_few="")
-    assert Diagnosis.established(found, rung) is undisputed
-    for key, value in (("too_few", "why"), ("_is_as_of_mixes", lambda _: True)):
-        assert not Diagnosis.established(SimpleNamespace(**vars(found) | {key: value}), rung)
-    rung.probability = 0.949
-    assert not Diagnosis.established(found, rung)
+    found = Diagnosis.__new__(Diagnosis)
+    found.ladder = SimpleNamespace(doubts=doubted, hangs_on={rung.candidate.key: hangs_on})
+    for too_few, as_of_mixes, probability, stays in (
+        ("", False, 0.95, True), ("why", False, 0.95, False), ("", True, 0.95, False), ("", False, 0.949, False),
+    ):  # fmt: skip
+        found.too_few, rung.probability = too_few, probability
+        monkeypatch.setattr(Diagnosis, "_is_as_of_mixes", lambda *_, answer=as_of_mixes: answer)
+        assert found.established(rung) is (undisputed and stays)
 
 
 def test_faults_of_one_place_are_told_with_82_percent_at_most_and_rivals_of_a_name_are_causes(monkeypatch):
