@@ -56,6 +56,19 @@ def test_what_is_no_problem_is_refused(arguments, sentence, order):
         an.solve_contacts(*arguments, order=order)
 
 
+@pytest.mark.parametrize("scale", [1e-3, 1e3])
+def test_rounding_of_what_was_assembled_is_no_asymmetry(scale):
+    """Up to a millionth of the largest entry."""
+    for share, taken in ((0.9e-6, True), (1.1e-6, False)):
+        W = scale * np.eye(3)
+        W[0, 1] = share * scale
+        if taken:
+            assert an.solve_contacts(W, [-1.0, 0.0, 0.0], 0.5).reactions[0] == pytest.approx(1.0 / scale)
+        else:
+            with pytest.raises(an.InputError, match="W: not symmetric"):
+                an.solve_contacts(W, [-1.0, 0.0, 0.0], 0.5)
+
+
 def test_an_order_that_is_none():
     with pytest.raises(an.InputError, match="give one of nts, tns, tsn"):
         an.solve_contacts(np.eye(3), [-1.0, 0.0, 0.0], 0.5, order="xyz")

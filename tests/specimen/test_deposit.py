@@ -267,7 +267,11 @@ def test_at_rest_forces_balance(layer):
     """Floor and walls carry the weight, no sphere is pushed about; both told from the list of impulses."""
     still, numerics = copy(layer), PouringNumerics.of(layer.radius, 4e-4)
     n = still.radius.size
-    assert max(balance(still, numerics, 0.3, silent, "")) < 5e-4
+    told = []
+    assert max(balance(still, numerics, 0.3, lambda *said: told.append(said), "settling")) < 5e-4
+    assert (
+        told[0] == ("settling", pytest.approx(4.8e-3), 0.3) and told[-1][1] < 0.3
+    )  # looks are 12 steps apart
     weight, unbalanced = still.imbalance(4e-4)
     force = -9.81 / still.inverse_mass[:n, None] * [0.0, 0.0, 1.0]
     floor, sizes = 0.0, []
