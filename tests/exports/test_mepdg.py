@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
@@ -10,7 +11,7 @@ import pytest
 from naive.prony import ROOT, SPECTRA
 
 from asphalt_nscd.exports.export import export_law
-from asphalt_nscd.exports.formats.mepdg import FREQUENCIES, TEMPERATURES_F
+from asphalt_nscd.exports.formats.mepdg import FREQUENCIES, TEMPERATURES_F, make_table, sigmoid
 from asphalt_nscd.exports.law import read_law_file
 from asphalt_nscd.exports.settings import ExportSettings
 from asphalt_nscd.files.errors import InputError
@@ -95,3 +96,39 @@ def test_temperatures_of_the_shift_are_told_at_either_end(tmp_path, tested, extr
     beyond = re.findall(r"([\d.]+) degF [\d.]+ Hz \((f?T?)\)", joined)
     assert {float(t) for t, flag in beyond if "T" in flag} == extrapolated
     assert not any("f" in flag for _, flag in beyond)
+
+
+def test_a_law_that_is_a_sigmoid_comes_back():
+    """Tested at 40 and 70 degF, 1 to 10 Hz: the frequency is reduced to 70 degF, where the law has its reference."""
+    parameters, shift = (3.9, 2.6, -0.8, 0.45), WLF(10.0, 100.0, (70.0 - 32.0) / 1.8)
+
+    def modulus(omega):
+        time = np.log10(2.0 * np.pi / omega)
+        return 6894.757 * 10 ** (3.9 + 2.6 / (1.0 + np.exp(-0.8 + 0.45 * time)))
+
+    tested = np.array([(t, f) for t in (40.0, 70.0) for f in (1.0, 10.0)]).T
+    celsius = (tested[0] - 32.0) / 1.8
+    reduced = 2.0 * np.pi * tested[1] * shift.factor(celsius)
+    half = SimpleNamespace(
+        half=lambda law, omega, at: np.log(1.0 + 0.01 * omega / (2 * np.pi)) * (at > 20) + 0j
+    )
+    law = SimpleNamespace(
+        shift=shift, factor=shift.factor, reference_modulus=modulus, law=None, uncertainty=half,
+        defined=lambda at: np.full(at.shape, True), reduced_band=lambda: (reduced.min(), reduced.max()),
+        band=SimpleNamespace(temperature=celsius),
+    )  # fmt: skip
+    made = make_table(law)
+    assert made.sigmoid == pytest.approx(parameters, rel=1e-5) and made.error_percent < 1e-3
+    at = (np.array(TEMPERATURES_F) - 32.0) / 1.8
+    assert made.log_shift == pytest.approx(np.log10(shift.factor(at)), abs=1e-12)
+    all_reduced = 2.0 * np.pi * np.array(FREQUENCIES) * shift.factor(at)[:, None]
+    np.testing.assert_allclose(made.modulus, modulus(all_reduced) / 6894.757)
+    inside = (all_reduced > reduced.min() * 0.999) & (all_reduced < reduced.max() * 1.001)
+    warm = np.array([True, False, False, True, True])  # or cold
+    assert made.outside == [
+        ["" if ok else "f" for ok in row] if not off else [("" if ok else "f") + "T" for ok in row]
+        for row, off in zip(inside, warm)
+    ]
+    np.testing.assert_allclose(made.spread[:2], 1.0)
+    np.testing.assert_allclose(made.spread[2:], 1.0 + 0.01 * np.tile(FREQUENCIES, (3, 1)))
+    assert sigmoid((1.0, 2.0, 0.0, 1.0), np.array([-99.0, 0.0, 99.0])) == pytest.approx([3.0, 2.0, 1.0])

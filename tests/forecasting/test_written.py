@@ -175,11 +175,3 @@ def test_the_summary_by_hand(graded):
     head = headline(made)
     first = f"|E*| = {head.E_MPa:.0f} MPa ({head.E_MPa / 6.894757:.0f} ksi) and phase {head.phase_deg:.1f}°"
     assert answer(made)[0].startswith(f"{first} at 15 °C (59 °F)")
-
-
-def test_volumes_and_what_a_grade_became_are_told(graded):
-    """By hand: binder 5.4 / 1040 in 94.6 / 2670 and 6 % of air."""
-    binder = 5.4 / 1040 / (5.4 / 1040 + 94.6 / 2670) * 94
-    told = " ".join(answer(forecast(graded)))
-    assert "Binder: A = 10.980, VTS = -3.680." in told
-    assert f"VMA {binder + 6:.1f} %, VFA {100 * binder / (binder + 6):.0f} %" in told

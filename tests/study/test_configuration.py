@@ -172,6 +172,14 @@ def test_key_that_stands_twice(tmp_path):
     (path := tmp_path / "my.yaml").write_text("study: a\ntest:\n  cycles: 5\n  amplitude_m: 1\n  cycles: 3\n")
     with pytest.raises(InputError, match=r"my\.yaml, line 5: key 'cycles'"):
         refuse_repeated_keys(path)
+    for text, said in (
+        ("a: &x [1]\nb:\n  - 2\n  - *x\n", "line 4: refers to an anchor"),
+        ("a: 1\n[1, 2]: 3\n", "line 2: a key is not a word"),
+        ("a: {b\n", "not valid YAML"),
+    ):
+        path.write_text(text)
+        with pytest.raises(InputError, match=rf"my\.yaml.*{said}"):
+            refuse_repeated_keys(path)
     for study in ("paper", "smoke"):
         refuse_repeated_keys(ROOT / f"config/{study}.yaml")
 

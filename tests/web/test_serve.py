@@ -8,6 +8,7 @@ import multiprocessing
 import re
 import time
 import zipfile
+from types import SimpleNamespace
 
 import forks  # noqa: F401  what its server has loaded, a process need not load again
 import pytest
@@ -65,6 +66,63 @@ def test_only_the_user_is_answered(client):
     assert client.get(PAGE, headers={"Host": "evil.example"}).status_code == 403
     elsewhere = {"Origin": "http://evil.example"}
     assert client.post(f"{PAGE}diagnose", json={}, headers=elsewhere).status_code == 403
+    own = {"Origin": "http://localhost"}
+    assert client.post(f"{PAGE}cancel", headers=own).get_json() == {"state": "cancelled"}
+    assert client.get(f"{PAGE}job").status_code == 404  # nothing was started
+
+
+def test_results_are_those_that_the_job_has_listed(client, app):
+    desk = app.config["DESKS"].desk(TAB)
+    desk.output.mkdir()
+    for name in ("a.csv", "b.csv"):
+        (desk.output / name).write_text(name)
+    told = {"files": ["a.csv", "gone.csv"]}
+    desk.job = SimpleNamespace(
+        state="running", result=told, stage="s", share=0.5, look=lambda: "running", stop=id
+    )
+    assert client.get(f"{PAGE}results/a.csv").status_code == 404
+    assert client.post(f"{PAGE}read", json={}).status_code == 409  # no files, and a job
+    desk.files = [desk.output / "a.csv"]
+    assert client.post(f"{PAGE}diagnose", json={}).get_json()["error"].startswith("a diagnosis is under way")
+    desk.job.state, desk.job.look = "done", lambda: "done"
+    assert client.get(f"{PAGE}results/a.csv").text == "a.csv"
+    assert client.get(f"{PAGE}results/a.csv?download").headers["Content-Disposition"].startswith("attachment")
+    assert {client.get(f"{PAGE}results/{name}").status_code for name in ("b.csv", "gone.csv")} == {404}
+    said = client.get(f"{PAGE}job").get_json()
+    assert said == {"state": "done", "stage": "s", "share": 0.5} | told
+    desk.job.stop = lambda: None
+
+
+def test_a_law_is_exported_for_each_program_that_it_can_be(tmp_path, monkeypatch):
+    made = []
+
+    def export(law, settings, form, path):
+        made.append(path.name)
+        if form == "ansys":
+            raise InputError("cannot")
+
+    monkeypatch.setattr("asphalt_nscd.exports.export.export_law", export)
+    monkeypatch.setattr("asphalt_nscd.exports.law.read_law_file", lambda path: path)
+    work._export(tmp_path)
+    assert made == []
+    (tmp_path / "law.json").touch()
+    work._export(tmp_path)
+    assert sorted(made) == sorted(
+        ["law_abaqus.inp", "law_ansys.inp", "law_comsol.txt", "law_csv.csv", "law_mepdg.csv", "law_xlsx.xlsx"]
+    )
+    assert work._names(tmp_path) == ["law.json"]
+
+
+def test_cells_and_sentences_of_the_first_look(tmp_path):
+    assert [work._rounded(x) for x in ("a", 1234567.0, 0.1234567, float("nan"))] == [
+        "a",
+        "1.23457e+06",
+        "0.123457",
+        "",
+    ]
+    path = tmp_path / "t.csv"
+    assert work._shorten_paths(f"{path}: odd, in {tmp_path}/u.csv", [path]) == "t.csv: odd, in u.csv"
+    assert [work._missing_unit(q) for q in ("E_MPa", "specimen")] == ["not said", ""]
 
 
 def test_a_page_loads_nothing_from_elsewhere(client):
@@ -81,7 +139,7 @@ def test_a_page_loads_nothing_from_elsewhere(client):
         ("../../etc/passwd", "passwd"), ("..\\..\\a.csv", "a.csv"), ("/abs/t.csv", "t.csv"),
         (".hidden.csv", "hidden.csv"),
         ("<img src=x>.csv", "_img src_x_.csv"), ("a\0b.csv", "a_b.csv"), ("..", "file"),
-        ("Éprouvette 1.csv", "Éprouvette 1.csv"),
+        ("Éprouvette 1.csv", "Éprouvette 1.csv"), ("a" * 200 + ".csv", "a" * 116 + ".csv"),
     ],
 )  # fmt: skip
 def test_names_of_files_are_names_and_no_paths(name, safe):

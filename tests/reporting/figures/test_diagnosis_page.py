@@ -43,21 +43,6 @@ def test_what_could_not_be_seen_stands_beside(page):
     assert "<li>loose clamp of all specimens – relaxation spectrum</li>" in html
 
 
-@pytest.mark.parametrize(
-    ("origin", "sentences"),
-    [
-        ("reconstructed", ["rests on reconstructed data"]),
-        ("measured", ["they are taken for measurements"]),
-        ("mixed: measured, reconstructed", ["taken for measurements", "rests on reconstructed data"]),
-        ("borrowed", ["The data are borrowed."]),
-    ],
-)
-def test_origin_is_said(page, origin, sentences):
-    html = page(origin=origin)
-    assert all(sentence in html for sentence in sentences)
-    assert ("rests on reconstructed data" in html) == ("reconstructed" in origin)
-
-
 def test_published_table_stands_beside_reconstructed_data_only(page, tmp_path):
     table = pd.DataFrame({
         "temperature_C": [0.0], "compared_with": ["reconstructed"], "mre_E_published_percent": [1.33],

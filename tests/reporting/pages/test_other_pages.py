@@ -1,15 +1,18 @@
-"""Pages of several mixes, and of tests without a phase: cells by hand, points where their tests are."""
+"""Parts of pages by hand: cells of several mixes, of a law, of the first page; tests without a phase on their curve."""
 
 from __future__ import annotations
 
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pandas as pd
 import pytest
 from reporting.figures.tiny_results import band_of
 
-from asphalt_nscd.reporting.pages import comparison, stiffness_page
+from asphalt_nscd.diagnosis.words.sentences import estimate
+from asphalt_nscd.reporting.pages import comparison, diagnosis_page, first_page, handout, stiffness_page
+from asphalt_nscd.reporting.settings import Heading
 
 BOUNDS = {"E_MPa": 9000.4, "E_low_MPa": 8000.0, "E_high_MPa": 10000.0, "phase_deg": 20.0}
 BOUNDS |= {"phase_low_deg": 19.0, "phase_high_deg": 21.5, "temperature_C": 15.0, "frequency_Hz": 10.0}
@@ -99,3 +102,76 @@ def test_tests_without_a_phase_lie_on_their_curve(tmp_path, monkeypatch):
     assert told == "01|0|1§specimen 01, 0.4 °C, 1 Hz: |E*| 398.1 MPa, -1.3 % off the curve"
     assert axes.get_xlabel() == "reduced frequency (Hz), at 20 °C" and axes.get_ylabel() == "|E*| (GPa)"
     assert [text.get_text() for text in figures[0].legends[1].get_texts()] == ["0 °C", "20 °C"]
+
+
+def test_parts_of_the_report_to_hand_on():
+    """How many tests the values rest on, cells of the result, and what was tested."""
+    assert handout._resting_on({"use": 20, "check": 5, "held_back": 2}).endswith(
+        "on 23 tests, 3 of them doubtful."
+    )
+    assert handout._resting_on({"use": 20, "check": 2, "held_back": 2}) == ""
+    row = SimpleNamespace(**BOUNDS, within_the_tests=True)
+    assert handout._interval(row) == "9000\n8000 to 10000\n20.0 deg (19.0 to 21.5)"
+    row.within_the_tests = False
+    assert handout._interval(row).startswith("9000 *\n")
+    row.E_MPa = np.nan
+    assert handout._interval(row) == "not known"
+    reading = {"test_type": "bending", "isotherms_C": [-10.0, 4.5], "specimens": ["A", "B"]}
+    content = {"reading": reading, "tests": 11, "trust": {"not_used": 2}}
+    voids = {"lowest_percent": 4.0, "highest_percent": 6.5}
+    told = dict(handout._tested(content | {"scatter": {"air_voids": voids}}, Heading(mix="AC 16")))
+    assert told.pop("Kind of test").startswith("Two-point bending")
+    assert told == {
+        "Mix": "AC 16", "Specimens": "A, B", "Air voids": "4 to 6.5 %", "Temperatures": "-10, 4.5 degC", "Tests": "13",
+    }  # fmt: skip
+
+
+def test_a_law_stands_in_units_of_use():
+    parameters = {
+        "E_glassy_Pa": {"value": 3.14159e10, "interval_95": [2e10, 4e10], "determined": True},
+        "E_static_Pa": {"value": 1.5e8, "interval_95": None, "determined": False},
+        "activation_energy_J_mol": {"value": 2e5, "interval_95": None, "determined": True},
+        "k": {"value": 0.25, "interval_95": None, "determined": True},
+    }
+    laws = [
+        {"title": "CAM", "taken": False, "parameters": 5, "mre_E_percent": 3.0, "off_phase_deg": 1.234},
+        {"title": "2S2P1D", "taken": True, "parameters": 9, "mre_E_percent": 1.0, "off_phase_deg": np.nan},
+    ]
+    made = diagnosis_page.law({"law_parameters": parameters, "laws": laws})
+    assert made["title"] == "2S2P1D"
+    assert made["laws"] == [["CAM", "5", "3", "1.23"], ["2S2P1D, in law.json", "9", "1", ""]]
+    assert made["parameters"] == [
+        ["E glassy", "31.4", "20 to 40", "GPa", "yes"],
+        ["E static", "150", "", "MPa", "no"],
+        ["activation energy", "200", "", "kJ/mol", "yes"],
+        ["k", "0.25", "", "", "yes"],
+    ]
+    assert diagnosis_page.law({"law_parameters": {}}) is None
+
+
+def test_rows_of_a_rung_by_hand():
+    """Sizes are widened as the scatter is, but not that of the bonds; errors are means over temperatures."""
+    pair = {"before": 8.0, "after": 2.0}
+    each = {
+        t: {"mre_E_percent": pair | {"after": float(t)}, "mre_phase_percent": pair, "off_phase_deg": pair}
+        for t in "123"
+    }
+    gain = {"averages_by_temperature": each, "rms_over_scatter": {"before": 3.0, "after": 1.0}}
+    held = {"leave_one_isotherm_out": {"averages_by_temperature": each | {"9": each["3"]}}}
+    one = {"value": 2.0, "std_error": 0.5, "unit": "1"}
+    rung = {"cause": "x_y", "where": None, "parameters": {"a_b": one}, "p_value": 9e-7}
+    rung["gain"] = {"in_sample": gain, "held_out": held}
+    for cause, p, said in (
+        ("x_y", 9e-7, "below 1e-06"),
+        ("bond_mapping", 1.1e-6, "1e-06"),
+        ("x_y", None, ""),
+    ):
+        first, second = diagnosis_page._rows(rung | {"cause": cause, "p_value": p}, 2.0)
+        by = 1.0 if cause == "bond_mapping" else 2.0
+        assert first[1:] == [f"a b {estimate(one, by)}", said, "fitted", "8 → 2", "8 → 2", "3 → 1"]
+        assert second[3:] == [diagnosis_page.HELD_OUT["leave_one_isotherm_out"], "8 → 2.5", "8 → 2", ""]
+
+
+def test_ranges_and_numbers_of_the_first_page():
+    assert first_page._range(pd.Series([3.0, 12.345678])) == "3 to 12.35"
+    assert first_page._range(pd.Series([4.0, 4.0])) == "4" and first_page._number(14160.4) == "14160"

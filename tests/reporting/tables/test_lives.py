@@ -45,7 +45,7 @@ def test_lives_at_three_strains_follow_the_slope(courses):
 def profiles(tmp_path):
     """Damage over the height, most of it at a third and at a half."""
     paths = []
-    for name, damage in (("p1", [0.1, 0.4, 0.0]), ("p2", [0.2, 0.1, 0.3])):
+    for name, damage in (("p1", [0.1, 0.4, 0.0]), ("p2", [0.0, 0.1, 0.3])):
         paths.append(tmp_path / f"{name}.csv")
         table = {"height_share": [0.2, 1 / 3, 0.5], "damage": damage, "lost": 0.0}
         pd.DataFrame(table).to_csv(paths[-1], index=False)
