@@ -172,6 +172,11 @@ def test_a_layer_at_rest_that_is_poured_on_stays_where_it_is(folder, poured):
     for box in ((0.03, 0.01, 0.14), within, (*BOX[:2], float(position[:, 2].max()))):
         with pytest.raises(InputError, match="spheres of the packing lie outside"):
             deposit(folder / "deposit.h5", Pouring(box), folder / "again.h5")
+    beside = np.array([[0.02, 0.005, 0.02], [0.001 - 1.5e-3 * preparation.DEEP, 0.005, 0.02]])
+    with pytest.raises(
+        InputError, match="spheres of the packing lie outside"
+    ):  # by more than a small one may
+        preparation.pour_on(beside, np.array([4e-3, 1e-3]), still)
     position = np.where(np.arange(radius.size)[:, None] == 3, np.nan, position)
     with pytest.raises(InputError, match="sphere 4 is not finite"):
         preparation.pour_on(position, radius, still)

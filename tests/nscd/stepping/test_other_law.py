@@ -112,3 +112,18 @@ def test_the_modulus_of_the_scheme_is_that_of_the_chain():
         assert LAW.discrete_modulus(60.0, dt) == pytest.approx(
             burgers().discrete_modulus(60.0, dt), rel=1e-12
         )
+
+
+def test_a_march_begins_where_its_actuator_stands(beam_system):
+    """What is held at 3 um from the start is not pulled there."""
+    first, still = (
+        March(
+            CondensedStepper(beam_system, LAW, DT, CondensedState.rest_state(beam_system, LAW)),
+            Scheme(),
+            LAW,
+            DT,
+            at,
+        ).move_to(at)
+        for at in (3e-6, 0.0)
+    )
+    assert first == pytest.approx(still, abs=1e-9)
