@@ -156,9 +156,11 @@ def test_two_tabs_diagnose_at_once_and_keep_their_own_answers(page, address, tmp
         until(page, "document.getElementById('go').offsetParent !== null")
     for page._session in tabs.values():
         page.evaluate("document.getElementById('go').click()")
-    states = []
-    for page._session in tabs.values():
-        states.append(page.evaluate("fetch('job').then(answer => answer.json()).then(job => job.state)"))
+    states = [None]
+    while None in states:  # a click has not come to the server yet
+        states = []
+        for page._session in tabs.values():
+            states.append(page.evaluate("fetch('job').then(answer => answer.json()).then(job => job.state)"))
     assert states == ["running", "running"]
     values = {}
     for name, page._session in tabs.items():

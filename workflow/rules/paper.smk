@@ -14,9 +14,9 @@ for name, data in PAPER_TABLES.items():
             f"<results>/logs/{name}.log",
         benchmark:
             f"<results>/benchmarks/{name}.tsv"
+        priority: 6  # some take half a minute: none may be left alone to the end
         group:
             "contents"
-        priority: 6  # some take half a minute: none may be left alone to the end
         conda:
             ENVIRONMENT
         params:
