@@ -33,6 +33,21 @@ def test_a_binder_has_the_viscosity_of_its_grade(viscosity):
     assert found == pytest.approx(viscosity, rel=1e-6)
 
 
+@pytest.mark.parametrize("temperature", [-60.0, 120.0])
+@pytest.mark.parametrize("grade", GRADES)
+def test_every_grade_has_a_modulus_at_all_temperatures_of_a_recipe(grade, temperature):
+    for line in GRADES[grade].values():
+        shift = ViscosityShift(*line)
+        at = shear_modulus(np.array([10.0]), shift.crossover(np.array([temperature])))
+        found = np.log(np.abs(at) / 10.0) - 4.8628 * np.log(np.sin(np.angle(at)))
+        assert found == pytest.approx(np.log(shift.viscosity(temperature)), abs=1e-6)
+
+
+def test_a_and_vts_of_no_binder_are_refused():
+    with pytest.raises(InputError, match="a viscosity of inf Pa s, more than any; correct A and VTS"):
+        ViscosityShift(20.0, -1.0).crossover(np.array([15.0]))
+
+
 def test_a_grade_is_its_usual_a_and_vts():
     """A point of data/mixes50: PG 58-28 at -10 degC has 6.64e9 Pa s."""
     shift = ViscosityShift(*GRADES[58][-28])

@@ -21,6 +21,7 @@ from asphalt_nscd.rheology.spectrum_fitting import Form, fit_spectrum
 
 UNSTATED = 15.0  # degC, what an unstated reference temperature is called
 GLASSY, RHEOLOGICAL_INDEX = 1e9, 1.8  # Pa; Christensen & Anderson (1992), middle of paving grades
+THICKEST = 1e40  # Pa s; a grade has up to 1e35 by its line, at -60 degC
 SOFTENED = 1300.0  # Pa s: viscosity at the softening point (MEPDG)
 LARGEST_MISFIT = 1.0  # rms of ln G* of a law about its table: more is no binder
 SCATTER, LEAST_SETPOINTS = (
@@ -110,7 +111,8 @@ class ViscosityShift:
     def viscosity(self, temperature: float) -> float:
         """Viscosity [Pa s] at a temperature [degC]."""
         rankine = 1.8 * (temperature + ZERO_CELSIUS)
-        return float(1e-3 * 10.0**10.0 ** (self.a + self.vts * np.log10(rankine)))
+        with np.errstate(over="ignore"):  # `crossover_of` refuses an infinite one
+            return float(1e-3 * 10.0**10.0 ** (self.a + self.vts * np.log10(rankine)))
 
     def factor(self, temperature: np.ndarray) -> np.ndarray:
         """Reduced frequency over frequency at temperatures [degC]."""
@@ -162,12 +164,19 @@ def crossover_of(viscosity: float, index: float = RHEOLOGICAL_INDEX) -> float:
 
     So the MEPDG (2004) makes the viscosity of a grade from its tests by a rheometer.
     """
+    if viscosity > THICKEST:
+        raise InputError(
+            f"the binder would have a viscosity of {viscosity:.3g} Pa s, more than any; correct A and VTS, or ask for "
+            "a warmer mix."
+        )
 
     def misfit(log: float) -> float:
         at = shear_modulus(np.array(10.0), 10.0**log, index)
         return float(np.log(np.abs(at) / 10.0 * np.sin(np.angle(at)) ** -4.8628 / viscosity))
 
-    return float(10.0 ** brentq(misfit, -20.0, 20.0))
+    # Far below its glass transition a binder crosses over slower than 1e-20 rad/s.
+    slowest = -20.0 if misfit(-20.0) > 0.0 else -60.0
+    return float(10.0 ** brentq(misfit, slowest, 20.0))
 
 
 def read_binder(content: Mapping[str, Any], path: str | Path, read_table: TableReader = read_csv) -> Binder:
