@@ -10,6 +10,7 @@ from scipy.stats import norm
 from asphalt_nscd.diagnosis.next_tests.choice import Order
 from asphalt_nscd.diagnosis.next_tests.further_tests import Departure
 from asphalt_nscd.diagnosis.next_tests.sweeps import Sweep
+from asphalt_nscd.diagnosis.record.statuses import Places
 from asphalt_nscd.diagnosis.words import facts, order_words, sentences
 from asphalt_nscd.diagnosis.words.answer import MOST, WIDTH, Words, answer, summary
 from asphalt_nscd.diagnosis.words.tables import tables
@@ -131,6 +132,14 @@ def test_a_specimen_that_is_held_back_is_told_on_the_first_screen():
     ]
     assert row("Check first", **found)[0].startswith("Specimen A: phase 2.00 +- 0.50 deg below")
     assert row("Law", **found)[0].endswith(" It was fitted to the tests without specimen A.")
+
+
+def test_a_sweep_held_back_for_its_temperature_is_not_among_those_of_the_law():
+    warm = {"specimen": "A", "temperature_C": 20.0, "kelvin": 3.1, "interval_95": [2.4, 3.8]}
+    found = {"trust": {"use": 68, "check": 4, "held_back": 4}, "odd_temperatures": [warm]}
+    assert row("Law", **found)[0].endswith(" It was fitted to the tests without specimen A at 20 degC.")
+    odd = Places([], [], [warm], [], [], np.zeros(0, bool))
+    assert odd.words == ["specimen A at 20 degC"]  # of the remark on law.json and reported.csv
 
 
 UNSURE = named("phase_offset", 1.5, "deg", established=False, probability=0.72)

@@ -40,7 +40,7 @@ class Places:
     @property
     def words(self) -> list[str]:
         """Each odd isotherm or specimen once."""
-        return levels.places(self.moduli, self.phases)
+        return levels.places(self.moduli, self.phases, self.temperatures)
 
 
 def odd_places(diagnosis: Diagnosis, whole: Observations) -> Places:

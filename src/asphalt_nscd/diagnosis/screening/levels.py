@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import combinations
+from itertools import chain, combinations
 from typing import Any
 
 import numpy as np
@@ -106,6 +106,6 @@ def place(one: Mapping[str, Any]) -> str:
     return specimen_named(one["specimen"]) + at
 
 
-def places(levels: list[dict[str, Any]], phases: list[dict[str, Any]]) -> list[str]:
-    """Each odd isotherm or specimen once, in words."""
-    return list(dict.fromkeys(map(place, [*levels, *phases])))
+def places(*odd: Iterable[Mapping[str, Any]]) -> list[str]:
+    """Each isotherm or specimen that is odd in |E*|, phase or temperature once, in words."""
+    return list(dict.fromkeys(map(place, chain(*odd))))

@@ -142,7 +142,8 @@ def held_back(content: Content) -> list[str]:
         return []
     highest = content["highest_frequency"]
     at = [] if highest is None else [f"the tests at {highest['frequency_Hz']:g} Hz"]
-    return [*levels.places(content["odd_levels"], content["odd_phases"]), *at]
+    odd_in = (content[f"odd_{of}"] for of in ("levels", "phases", "temperatures"))
+    return [*levels.places(*odd_in), *at]
 
 
 def misses(
