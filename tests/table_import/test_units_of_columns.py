@@ -89,3 +89,24 @@ def test_units_of_modulus_are_their_definitions(tmp_path, unit, pascals):
     assert read(tmp_path, table).table.numbers("E_MPa").tolist() == pytest.approx(
         [8080.0, 8240.0, 8800.0], rel=1e-6
     )
+
+
+@pytest.mark.parametrize(
+    ("second", "names"),
+    [
+        (["E* B (GPa)", "phi B (deg)"], ["'E* A (MPa)'", "'E* B (GPa)'"]),
+        (["E* B (MPa)", "phi B (rad)"], ["'phi A (deg)'", "'phi B (rad)'"]),
+    ],
+)
+def test_columns_of_one_quantity_in_two_units_are_refused(tmp_path, second, names):
+    """Below each other all would be read in the unit of the first: 9.8 GPa as 9.8 MPa."""
+    wide = [["T (°C)", "f (Hz)", "E* A (MPa)", "phi A (deg)", *second]]
+    wide += [[t, f, e, p, e, p] for s, t, f, e, p in ROWS if s == ROWS[0][0]]
+    refused(read, tmp_path, wide, names=["t.csv", *names, "give all in one unit"])
+
+
+def test_two_spellings_of_one_unit_are_one(tmp_path):
+    wide = [["T (°C)", "f (Hz)", "E* A (MPa)", "phi A (deg)", "E* B (N/mm²)", "phi B (°)"]]
+    wide += [[t, f, e, p, e, p] for s, t, f, e, p in ROWS if s == ROWS[0][0]]
+    moduli = read(tmp_path, wide).table.numbers("E_MPa")
+    assert list(moduli[: len(moduli) // 2]) == list(moduli[len(moduli) // 2 :])

@@ -19,6 +19,7 @@ from asphalt_nscd.table_import.heading import (
     quantity_of,
     read_heading,
 )
+from asphalt_nscd.table_import.quantities import Meaning
 
 _PLURALS = {CELSIUS: "temperatures", FAHRENHEIT: "temperatures", HERTZ: "frequencies", SPECIMEN: "specimens"}
 
@@ -76,6 +77,7 @@ def melted(cells: Cells) -> Cells:
         rows = [(line, [row[n] for n in shared]) for line, row in cells.rows]
         return Cells(cells.path, [headings[n].name for n in shared], rows, notes)
     _require_alike(cells, headings, shared, spread)
+    _require_one_unit(cells, headings, spread)
     conditions = [key for key, _ in next(iter(spread))]
     names = {quantity: headings[n].name for quantity, n in next(iter(spread.values())).items()}
     below = [row[n] for _, row in cells.rows for group in spread.values() for n in group.values()]
@@ -134,6 +136,21 @@ def _require_alike(cells: Cells, headings: list[Heading], shared: list[int], spr
         f"{cells.path}: {_PLURALS[conditions[0]]} stand in names of columns such as {name!r}, but "
         f"not the same for all quantities; give one row for each test, with a column {conditions[0]}."
     )
+
+
+def _require_one_unit(cells: Cells, headings: list[Heading], spread: _Groups) -> None:
+    """Refuse two units of one quantity: below each other all its numbers stand under one name."""
+    first: dict[str, tuple[int, Meaning]] = {}
+    for quantity, n in (pair for columns in spread.values() for pair in columns.items()):
+        own = headings[n].column
+        if own is None or own.unit is None:
+            continue
+        other, told = first.setdefault(quantity, (n, own))
+        if (own.factor, own.offset) != (told.factor, told.offset):
+            raise InputError(
+                f"{cells.path}: columns {cells.header[other]!r} and {cells.header[n]!r} hold one quantity in two "
+                "units; give all in one unit."
+            )
 
 
 _RESULTS = ("E_MPa", "phase_deg", "E1_MPa", "E2_MPa", "tan_delta", "F0_N", "psi_deg")
