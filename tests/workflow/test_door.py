@@ -103,6 +103,24 @@ def test_as_a_module_with_prefix_and_configuration_of_its_own(outer):
     assert not (outer / "results").exists()
 
 
+def test_a_module_finds_a_table_of_specimens_and_sampled_records_where_they_are(outer):
+    """The prefix is for results alone: what a table of the user names stands beside it."""
+    geometry = {"b_mm": 10, "B_mm": 20, "e_mm": 10, "h_mm": 60, "mass_kg": 0.021, "mobile_mass_kg": 0.008}
+    (outer / "own/shapes.csv").write_text(
+        f"specimen,{','.join(geometry)}\n1,{','.join(map(str, geometry.values()))}\n"
+    )
+    (outer / "own/record.csv").write_text("time_s,force_N,displacement_m\n")
+    rows = [f"1,{temperature},{f},record.csv" for temperature in (0, 20) for f in (3, 10)]
+    (outer / "own/mine.csv").write_text("\n".join(["specimen,temperature_C,frequency_Hz,record", *rows]))
+    config = yaml.safe_load((outer / "config.yaml").read_text())
+    config["asphalt"] |= {"geometry": "own/shapes.csv"}
+    config["asphalt"]["specimens"]["geometry"] = geometry
+    (outer / "config.yaml").write_text(yaml.safe_dump(config))
+    targets = ["mix/results/own/measured.csv", "mix/results/own/laws/fitted/T0.json"]
+    planned = snakemake("--dry-run", *targets, "--configfile", "config.yaml", folder=outer)
+    assert planned.returncode == 0, planned.stderr
+
+
 def test_every_step_of_a_study_names_its_software():
     for path in (ROOT / "workflow/rules").glob("*.smk"):
         if path.stem in ("mapping", "verification", "attack", "publish", "pictures", "whole"):

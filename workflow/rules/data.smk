@@ -12,7 +12,7 @@ def records(table, temperature=None):
         rows = csv.DictReader(file)
         wanted = (row for row in rows if temperature is None or is_number(row.get("temperature_C") or "", temperature))
         named = [row.get("record") for row in wanted]
-        return [str(path) for name in named if name and (path := Path(table).parent / name).is_file()]
+        return [local(str(path)) for name in named if name and (path := Path(table).parent / name).is_file()]
 
 
 rule reconstruct:

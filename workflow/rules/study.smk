@@ -101,7 +101,7 @@ SAMPLES = [f"s{seed}" for seed in STUDY["specimens"]["seeds"]]
 THREADS = max(1, min(workflow.resource_settings.cores or 1, cores()) // len(SAMPLES))
 
 POURED = "packings" not in STUDY["specimens"]
-SHAPES = [STUDY["geometry"]] if isinstance(STUDY["geometry"], str) else []  # a table of specimens
+SHAPES = [local(STUDY["geometry"])] if isinstance(STUDY["geometry"], str) else []  # a table of specimens
 COUNTS = STUDY["specimens"].get("counts_table", [])  # none where packings are given
 
 
