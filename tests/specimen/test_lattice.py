@@ -38,8 +38,11 @@ def test_spheres_are_apart_inside_and_complete(mix):
 
 def test_a_seed_stands_for_one_lattice():
     first, again, other = strewn("sharing", 7), strewn("sharing", 7), strewn("sharing", 8)
-    for one, two in zip(first, again):
+    diameters, counts, box = MIXES["sharing"]
+    reversed_sizes = random_lattice(diameters[::-1], counts[::-1], box, np.random.default_rng(7))
+    for one, two, three in zip(first, again, reversed_sizes):
         np.testing.assert_array_equal(one, two)
+        np.testing.assert_array_equal(one, three)
     assert np.abs(first[0] - other[0]).max() > 1e-3
 
 

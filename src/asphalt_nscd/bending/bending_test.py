@@ -317,5 +317,5 @@ def _velocity_profile(layers: LayerHeights, record: Record, frequency: float) ->
         "profile/height_m": layers.height,
         "profile/spheres": layers.spheres,
         "profile/time_s": record.time[taken],
-        "profile/velocity_m_s": record.velocity[taken],
+        "profile/velocity_m_s": np.where(layers.spheres > 0, record.velocity[taken], np.nan),
     }

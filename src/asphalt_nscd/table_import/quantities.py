@@ -88,12 +88,11 @@ def recognise(header: str, known: dict = MEASURED) -> Meaning | None:
         if units and not unit:
             return Meaning(quantity, None)
         # Refused only after all ways to read the name: another may give a unit that the quantity has.
-        foreign = foreign or (quantity, unit)
+        foreign = foreign or quantity
     if foreign:
-        quantity, unit = foreign
-        allowed = ", ".join(known[quantity][1])
+        allowed = ", ".join(known[foreign][1])
         mend = f"give one of {allowed}" if allowed else "write what stands in brackets without them"
-        raise InputError(f"column {header!r}: {unit!r} is not a unit of {quantity}; {mend}.")
+        raise InputError(f"column {header!r}: its unit is none of {foreign}; {mend}.")
     return None
 
 

@@ -150,7 +150,9 @@ def _grouped(values: np.ndarray, apart: float) -> np.ndarray:
     order = np.argsort(values)
     jumps = np.diff(np.log(values[order])) > apart
     group = np.concatenate([[0], np.cumsum(jumps)])
-    means = np.array([values[order][group == g].mean() for g in range(group[-1] + 1)])
+    groups = [values[order][group == g] for g in range(group[-1] + 1)]
+    # the mean of equal values may differ from them in the last digit
+    means = np.array([one.mean() if np.ptp(one) else one[0] for one in groups])
     set_to = np.empty_like(values)
     set_to[order] = means[group]
     return set_to
