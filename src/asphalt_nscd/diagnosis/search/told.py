@@ -96,8 +96,9 @@ class OneFrequency:
         """The entry `highest_frequency` of `diagnosis.json`; `widened` is the factor on the intervals of all names."""
         return {
             "frequency_Hz": self.frequency,
-            "modulus_percent": 100.0 * self.modulus[0],
-            "modulus_interval_95": [100.0 * end for end in interval_95(*self.modulus, widened)],
+            # Of a logarithm: 0.29 below is 25 %.
+            "modulus_percent": 100.0 * float(np.expm1(self.modulus[0])),
+            "modulus_interval_95": [100.0 * float(np.expm1(x)) for x in interval_95(*self.modulus, widened)],
             "phase_deg": float(np.degrees(self.phase[0])),
             "phase_interval_95": [float(np.degrees(end)) for end in interval_95(*self.phase, widened)],
         }
