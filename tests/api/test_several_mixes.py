@@ -109,6 +109,28 @@ def test_mixes_of_one_file_are_compared_by_their_names(mixes, tmp_path):
     assert (tmp_path / "out/AC 16 50-70/report.pdf").is_file()
 
 
+def test_a_folder_with_a_point_in_its_name_keeps_all_of_it(mixes, tmp_path):
+    for name, path in zip(("AC 5.2", "AC 5.4"), mixes, strict=False):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "tests.csv").write_text(path.read_text())
+    found = an.compare(
+        [tmp_path / "AC 5.2", tmp_path / "AC 5.4"],
+        measured_in="tension-compression",
+        draws=an.Draws(number=500),
+    )
+    assert list(found.diagnoses) == ["AC 5.2", "AC 5.4"]
+
+
+def test_a_file_called_as_a_named_mix_does_not_take_its_place(mixes, tmp_path):
+    frames = [pd.read_csv(path).assign(mix=name) for path, name in zip(mixes, ("A", "soft"), strict=False)]
+    pd.concat(frames).to_csv(tmp_path / "book.csv", index=False)
+    options = ["--only-mix", "A", "--only-mix", "soft", *OPTIONS, "--output", str(tmp_path / "out")]
+    with pytest.raises(an.InputError, match="soft.csv: two mixes are called soft; rename one"):
+        CliRunner().invoke(
+            command, [str(tmp_path / "book.csv"), str(mixes[0]), *options], catch_exceptions=False
+        )
+
+
 def test_a_possible_cause_is_not_shown_as_a_certain_one():
     rung = {"cause": "channel_delay", "where": None, "established": True, "probability": 0.97}
     ladder = [

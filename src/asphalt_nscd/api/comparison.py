@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
@@ -284,14 +284,28 @@ def _part_of(progress: Progress, mixes: int, total: int, _: str, done: float, st
 
 def _named(mixes: Mapping[str, Measurements] | Sequence[str | Path]) -> dict[str, Measurements]:
     """What to diagnose, by the name of the mix; refuses fewer than two, or two of one name."""
-    paths: dict[str, Measurements] = {}
-    if isinstance(mixes, Mapping):
-        paths |= mixes
-    else:
-        for path in map(Path, mixes):
-            if path.stem in paths:
-                raise InputError(f"{path}: two mixes are called {path.stem}; rename one.")
-            paths[path.stem] = path
+    paths = (
+        mixes
+        if isinstance(mixes, Mapping)
+        else named_apart((name_of(path), path) for path in map(Path, mixes))
+    )
     if len(paths) < 2:
         raise InputError("one mix is no comparison; give the files or folders of two or more.")
+    return dict(paths)
+
+
+def name_of(path: Path) -> str:
+    """The name of a mix by its file or folder."""
+    # A folder has no ending: "Mix 5.2" is no "Mix 5".
+    return path.name if path.is_dir() else path.stem
+
+
+def named_apart(mixes: Iterable[tuple[str, Measurements]]) -> dict[str, Measurements]:
+    """What to diagnose by the name of the mix; refuses two of one name."""
+    paths: dict[str, Measurements] = {}
+    for name, measurements in mixes:
+        if name in paths:
+            of = f"{measurements}: " if isinstance(measurements, str | Path) else ""
+            raise InputError(f"{of}two mixes are called {name}; rename one.")
+        paths[name] = measurements
     return paths

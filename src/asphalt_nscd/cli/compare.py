@@ -30,14 +30,14 @@ def command(
 
     MIXES: a file or a folder for each mix, two or more; or one file whose mixes --sheet or --only-mix names.
     """
-    from asphalt_nscd.api.comparison import compare
+    from asphalt_nscd.api.comparison import compare, name_of, named_apart
     from asphalt_nscd.api.tables import campaign_in
 
     taken: Any = mixes
     if sheet or only_mix:
-        taken = {name: campaign_in(mixes[0], sheet=name) for name in sheet}
-        taken |= {name: campaign_in(mixes[0], mix=name) for name in only_mix}
-        taken |= {path.stem: path for path in mixes[1:]}
+        of_sheets = [(name, campaign_in(mixes[0], sheet=name)) for name in sheet]
+        of_mixes = [(name, campaign_in(mixes[0], mix=name)) for name in only_mix]
+        taken = named_apart([*of_sheets, *of_mixes, *((name_of(path), path) for path in mixes[1:])])
     with bars("mix", on_terminal=True) as progress:
         made = compare(taken, measured_in=measured_in, law=known.law, draws=draws, progress=progress)
     table, machine = made.table, made.same_machine(draws) if same_machine else None
