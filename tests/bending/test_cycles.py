@@ -16,12 +16,17 @@ from asphalt_nscd.bending.cycles import cycle, run_cycles, skeleton_of, stuck_st
 from asphalt_nscd.bending.further_settings import Cycling
 from asphalt_nscd.bending.model import model_of
 from asphalt_nscd.bending.settings import Bonds
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import Record
 from asphalt_nscd.rheology.as_run import Programme
 from asphalt_nscd.rheology.burgers import Burgers
 
 LAW = Burgers(0.24e9, 0.04e9, 0.48e9, 0.008e9)
-CONTENT = condensed(jittered_beam(shape=(3, 2, 13), area="facets"), "beam", Bonds())
+GRAINS = jittered_beam(shape=(3, 2, 13), area="facets")
+LEAST = np.min((GRAINS.network.gap / GRAINS.network.length)[GRAINS.network.second < GRAINS.radius.size])
+# shrunk so much that the two closest grains touched before
+BEAM = replace(GRAINS, volume_reduction=1.0 - (1.0 - LEAST) ** 3)
+CONTENT = condensed(BEAM, "beam", Bonds())
 
 
 def test_contacts_are_the_least_gaps_and_their_forces_carry_the_pressure():
@@ -46,6 +51,24 @@ def test_contacts_are_the_least_gaps_and_their_forces_carry_the_pressure():
     whole = rows.T @ (weight[:, None] * rows) - omega**2 * np.diag(system.mass)
     expected = 1.0 / np.linalg.inv(whole)[system.driven, system.driven]
     assert stuck_stiffness(system, law, found, omega) == pytest.approx(expected, rel=1e-8)
+
+
+def test_a_pair_that_overlaps_hides_no_contacts_and_grains_that_are_apart_have_none():
+    def contacts(least: float) -> int:
+        """How many there are if all grains touched but two, whose gap over their distance is `least`."""
+        model = model_of(Record(*CONTENT, ""))
+        gap = LEAST * np.linalg.norm(np.diff(model.system.position[pairs], axis=1)[:, 0], axis=1)
+        gap[0] *= least / LEAST
+        changed = model.system.gap.copy()
+        changed[between] = gap
+        return skeleton_of(replace(model, system=replace(model.system, gap=changed)), 1e4, 0.5).bonds.size
+
+    between = np.flatnonzero(GRAINS.network.second < GRAINS.radius.size)
+    pairs = np.column_stack([GRAINS.network.first, GRAINS.network.second])[between]
+    assert contacts(LEAST) == contacts(0.1 * LEAST) == between.size
+    poured = replace(BEAM, volume_reduction=0.0)
+    with pytest.raises(InputError, match="no two grains are known to have touched"):
+        cycle(model_of(Record(*condensed(poured, "beam", Bonds()), "")), LAW, 10.0, Cycling())
 
 
 def test_a_beam_bends_with_contacts(monkeypatch):

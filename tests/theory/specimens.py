@@ -78,7 +78,12 @@ def save_specimen(path: str | Path, beam: Specimen) -> None:
     """A file as `trim` writes it, of a beam that was not poured."""
     arrays = {"position": beam.position, "radius": beam.radius}
     arrays |= {f"network/{name}": value for name, value in beam.network.arrays().items()}
-    attributes = beam.geometry.attributes() | {"area": beam.area, "density": beam.density, "loose_grains": 0}
+    attributes = beam.geometry.attributes() | {
+        "area": beam.area,
+        "density": beam.density,
+        "loose_grains": 0,
+        "volume_reduction": beam.volume_reduction,
+    }
     save(path, "specimen", arrays, attributes)
 
 

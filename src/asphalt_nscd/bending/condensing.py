@@ -94,6 +94,7 @@ def condensed(specimen: Specimen, name: str, bonds: Bonds, stand_by: int | None 
         "head": bonds.head,
         "driven": system.driven,
         "friction": bonds.friction,
+        "volume_reduction": specimen.volume_reduction,
         **specimen.geometry.attributes(),
     }
     return arrays, attributes

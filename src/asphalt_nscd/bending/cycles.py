@@ -91,7 +91,7 @@ def told(table: pd.DataFrame) -> str:
 def skeleton_of(model: Model, pressure: float, friction: float) -> Skeleton:
     """Contacts between grains that touched when they were poured, preloaded by `pressure` [Pa].
 
-    Grains of a specimen are shrunk alike, so that these are the pairs whose gap over their distance is the least.
+    Grains of a specimen are shrunk alike: a gap over its distance tells whether they touched, or overlapped, before.
     """
     shape, n = model.shape, model.spheres
     first, second, position = shape["first"], shape["second"], shape["position_m"]
@@ -102,7 +102,15 @@ def skeleton_of(model: Model, pressure: float, friction: float) -> Skeleton:
     apart = model.system.gap[between] / np.linalg.norm(
         position[first[between]] - position[second[between]], axis=1
     )
-    touching = between[apart < apart.min() + TOUCHING]
+    shrunk = 1.0 - (1.0 - model.volume_reduction) ** (1.0 / 3.0)
+    # grains poured here overlap by less than half of it; of another program's one pair may overlap by more, or none touch
+    least = np.clip(apart.min(), shrunk - TOUCHING / 2.0, shrunk)
+    touching = between[apart < least + TOUCHING]
+    if not touching.size:
+        raise InputError(
+            f"{model.name}: no two grains are known to have touched when poured; take a packing in which they did, "
+            "and condense its specimen anew."
+        )
     one, two = first[touching], second[touching]
     effective = radius[one] * radius[two] / (radius[one] + radius[two])
     length = np.linalg.norm(position[one] - position[two], axis=1)

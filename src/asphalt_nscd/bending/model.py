@@ -31,7 +31,8 @@ class Model:
     """A specimen ready for tests.
 
     `basis` (d, k) is that of the reduced form; `sphere_height` (n,) over the foot in m; `head` is "free" or "blocked";
-    `stand_by` holds directions for breaks; `digest` is that of the file; `shape`: see `condensing._shape`.
+    `stand_by` holds directions for breaks; `digest` is that of the file; `shape`: see `condensing._shape`;
+    `volume_reduction` is the part of its volume that each sphere lost when it was cut.
     """
 
     system: BondedSystem
@@ -43,6 +44,7 @@ class Model:
     stand_by: StandBy | None = None
     digest: str = ""
     shape: dict[str, np.ndarray] = field(default_factory=dict)
+    volume_reduction: float = 0.0
 
     @property
     def whole(self) -> Model:
@@ -141,4 +143,5 @@ def model_of(record: Record) -> Model:
         StandBy.from_arrays(own) if own else None,
         record.digest,
         shape,
+        attributes.get("volume_reduction", np.nan),  # files of earlier versions do not say it
     )

@@ -76,4 +76,5 @@ def specimen_of(content: Content) -> Specimen:
         network=Network(**{name: arrays[f"network/{name}"] for name in Network.__dataclass_fields__}),
         loose_grains=attributes["loose_grains"],
         area=attributes["area"],
+        volume_reduction=attributes["volume_reduction"],
     )

@@ -22,6 +22,7 @@ class Specimen:
 
     `position` (n, 3) and `radius` (n,), after the reduction of volume, in m; `density`, matched to the mass of the
     geometry, in kg/m3. `loose_grains` were removed for fewer than three bonds or no chain to the foot.
+    `volume_reduction` is the part of each sphere's volume that it lost.
     """
 
     geometry: Shape
@@ -31,6 +32,7 @@ class Specimen:
     network: Network
     loose_grains: int
     area: str = "paper"
+    volume_reduction: float = 0.0
 
 
 def layer_height(position: np.ndarray, radius: np.ndarray) -> float:
@@ -96,7 +98,8 @@ def trim(
             f"volume, and make the box as long as the specimen is high ({1e3 * geometry.h:.1f} mm)."
         )
     density = geometry.mass / float((4.0 / 3.0 * np.pi * shrunk**3).sum())
-    return Specimen(geometry, upright, shrunk, density, network, candidates - shrunk.size, area)
+    loose = candidates - shrunk.size
+    return Specimen(geometry, upright, shrunk, density, network, loose, area, volume_reduction)
 
 
 def held(network: Network, n: int, plates: int = 2) -> tuple[np.ndarray, bool]:
