@@ -30,8 +30,8 @@ ARROWS = {
         "files", "workflow_support", "measurements", "nscd", "rheology", "specimen", "bending", "forecasting",
         "diagnosis",
     ],
-    "study": ["files", "measurements", "rheology", "specimen", "packings", "reporting"],
-    "table_import": ["files", "measurements", "forecasting", "study", "reporting"],
+    "study": ["files", "measurements", "rheology", "specimen", "packings", "bending", "reporting"],
+    "table_import": ["files", "measurements", "bending", "forecasting", "study", "reporting"],
     "api": [
         "files", "measurements", "nscd", "rheology", "specimen", "bending", "diagnosis", "exports", "reporting",
         "table_import", "packings", "forecasting",

@@ -125,6 +125,14 @@ def test_time_steps_too_coarse(check):
     refused(check, "time_step_study.time_steps_s", "0.1 s", "10 Hz", time_step_study=steps)
 
 
+def test_more_time_steps_than_a_test_takes_at_the_lowest_frequency(check):
+    slow = {"frequencies_Hz": [0.004, 10]}
+    refused(check, "0.004 Hz", "6.25e+06 steps", test={"time_step_s": 2e-4}, **slow)
+    check(test={"steps_per_cycle": 200}, **slow)
+    refused(check, "3 Hz", "a test takes at most", test={"steps_per_cycle": 10**7})
+    refused(check, "time_step_study.time_steps_s", time_step_study=STEPS | {"time_steps_s": [1e-9]})
+
+
 @pytest.mark.parametrize(
     "table", ["diameter_mm\n2\n", "diameter_mm,count\n2,-4\n", "diameter_mm,count\n2,0\n"]
 )

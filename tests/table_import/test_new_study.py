@@ -129,6 +129,13 @@ def test_peaks_need_a_geometry_and_set_the_amplitude():
     assert "E_MPa" not in read_csv("data/mine/measurements.csv").columns
 
 
+def test_a_frequency_so_low_that_no_test_takes_as_many_steps_gets_steps_by_the_cycle():
+    rows = [f"A,{t},{f},{9000 - 100 * t + 100 * f},20" for t in (10, 20) for f in (0.01, 1, 25)]
+    Path("slow.csv").write_text("\n".join(["specimen,T_C,f_Hz,E_MPa,phase_deg", *rows]) + "\n")
+    test = accepted(new_study("slow", [Path("slow.csv")], StudyOptions(measured_in="bending"))[0])["test"]
+    assert test["steps_per_cycle"] == 200
+
+
 def test_replicates_become_specimens_and_readings_isotherms():
     rows = [
         f"A,{k},{t + 0.2 * k},{f},{9000 - 100 * t + 100 * f},20"

@@ -108,6 +108,7 @@ def test_specimens_that_differ_by_their_rounding_have_no_mean():
         ((14160, 4, 6, [3, 6, 10, 25, 40], 5e-5), "about 16 minutes"),
         ((14160, 4, 6, [0.001, 40], 5e-5), "about 4.7 hours"),
         ((14160, 1, 1, [10], 1e-3), "about 4 minutes"),
+        ((14160, 4, 6, [0.001, 40], None), "about 12 minutes"),  # 2000 steps a test, whatever its frequency
         ((0, 1, 20, [10] * 100, 1e-3), "about 70 minutes"),
         ((0, 1, 30, [10] * 100, 1e-3), "about 1.6 hours"),
     ],

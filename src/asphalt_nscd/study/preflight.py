@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from asphalt_nscd.bending.case import LoadCase, RunOptions, require_possible
+from asphalt_nscd.bending.settings import Numerics
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.geometry import read_geometry, read_shape, require_joined, require_within
 from asphalt_nscd.measurements.reduction import require_enough, tests_measured
@@ -76,13 +78,26 @@ def _check_specimens(specimens: Mapping[str, Any], source: str) -> None:
 
 
 def _check_time_steps(study: Mapping[str, Any], source: str) -> None:
-    """Require enough time steps in a cycle of the highest frequency."""
+    """Require enough time steps in a cycle of the highest frequency, and not too many in a test at the lowest."""
+    test, slowest = study["test"], min(study["frequencies_Hz"])
     with _prefix_errors(f"{source}: test.time_step_s"):
-        require_steps(study["test"]["time_step_s"], max(study["frequencies_Hz"]))
+        require_steps(test["time_step_s"], max(study["frequencies_Hz"]))
+    step = 1.0 / (slowest * test["steps_per_cycle"]) if "steps_per_cycle" in test else test["time_step_s"]
+    with _prefix_errors(f"{source}: test at {slowest:g} Hz"):
+        _require_few_steps(slowest, test["cycles"], step, test["rest_steps"])
     stepping = study.get("time_step_study")
     if stepping:
         with _prefix_errors(f"{source}: time_step_study.time_steps_s"):
             require_steps(max(stepping["time_steps_s"]), stepping["frequency_Hz"])
+            # as `simulate_step` of cases.smk has it
+            _require_few_steps(stepping["frequency_Hz"], 1, min(stepping["time_steps_s"]), test["rest_steps"])
+
+
+def _require_few_steps(frequency: float, cycles: int, time_step: float, rest_steps: int) -> None:
+    """Refuse more steps than a test takes, which else would be known when all samples are poured."""
+    require_possible(
+        LoadCase(frequency, cycles=cycles), Numerics(time_step, rest_steps=rest_steps), RunOptions()
+    )
 
 
 def _check_laws(study: Mapping[str, Any], source: str) -> None:

@@ -15,6 +15,7 @@ import pandas as pd
 import yaml
 from numpy.typing import NDArray
 
+from asphalt_nscd.bending.settings import MOST_STEPS
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import atomic_path, write_table
@@ -32,7 +33,7 @@ from asphalt_nscd.study.configuration import RESERVED, complete_study
 from asphalt_nscd.study.preflight import require_feasible
 from asphalt_nscd.study.schema import read_schema
 from asphalt_nscd.table_import.campaign import read_campaign
-from asphalt_nscd.table_import.duration import duration
+from asphalt_nscd.table_import.duration import duration, steps_of_a_test
 from asphalt_nscd.table_import.grid import grid
 from asphalt_nscd.table_import.spheres import PAPER, SMALLEST_MM, Spheres, read_grading, spheres_for
 
@@ -91,6 +92,8 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
         read.numbers("z0_m") if "z0_m" in read.columns else None, simulated, options.small
     )
     step = float(f"{min(COARSEST_STEP, 1.0 / (STEPS_PER_CYCLE * max(frequencies))):.2g}")
+    # In steps for its highest frequency, a test at its lowest may take more of them than a test can have.
+    fitted = direct or steps_of_a_test(min(frequencies), step) > MOST_STEPS
     table, counts = folder / "measurements.csv", folder / "counts.csv"
     text = template("table_import/study.yaml.j2").render(
         name=name,
@@ -116,12 +119,18 @@ def new_study(name: str, measurements: Sequence[Path], options: StudyOptions) ->
         simulated=_flow(simulated.keys()) if simulated != shape or not isinstance(geometry, Mapping) else "",
         simulated_why=why_simulated,
         test_type=simulated.test,
-        fitted_steps=FITTED_STEPS,
+        fitted_steps=FITTED_STEPS if fitted else None,
         test="two-point bending" if simulated.test == "bending" else simulated.test,
         time_step=f"{step:.2e}",
         steps_per_cycle=round(1.0 / (step * max(frequencies))),
         middle=temperatures[len(temperatures) // 2],
-        duration=duration(int(spheres.counts.sum()), len(seeds), len(temperatures), frequencies, step),
+        duration=duration(
+            int(spheres.counts.sum()),
+            len(seeds),
+            len(temperatures),
+            frequencies,
+            None if fitted else step,
+        ),
     )
     try:
         write_table(table, pd.DataFrame(read.columns))
