@@ -21,3 +21,9 @@ def test_the_head_feels_what_hangs_on_it_and_the_reduction_adds_its_own_inertia(
     expected = form_factor(GEOMETRY) * (force + mass_factor(GEOMETRY) * omega**2)
     assert specimen.apparent_modulus(omega, star) == pytest.approx(expected)
     assert specimen.ratio() == pytest.approx(form_factor(GEOMETRY) * (5e-5 - 4e-10 / 3e-5), rel=1e-6)
+
+
+def test_without_a_motion_of_its_own_it_shows_the_law_of_its_bonds():
+    specimen = NumericalSpecimen(np.eye(2), np.eye(2), GEOMETRY, "two").law_alone()
+    omega, star = 2.0 * np.pi * np.array([1.0, 100.0]), np.array([2e9 + 1e9j, 2e8 + 9e7j])
+    assert specimen.apparent_modulus(omega, star) == pytest.approx(star, rel=1e-12)

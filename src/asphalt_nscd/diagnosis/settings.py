@@ -42,7 +42,7 @@ class Simulated:
     facets : path, optional
         The same tests on specimens bonded by facets, to say what the paper's bonds make of |E*|.
     specimen : path, optional
-        Numerical specimen, a file of `reduced-specimen`; else the one shipped.
+        Numerical specimen, a file of `reduced-specimen`; else, of two-point bending, the one shipped.
 
     Examples
     --------

@@ -88,7 +88,7 @@ class Scatter(TypedDict):
 class Numerics(TypedDict):
     """What the numerical specimen adds to the law of its bonds.
 
-    specimen: Name of the numerical specimen.
+    specimen: Name of the numerical specimen; none where the tests are of another kind than its own.
     modulus_over_law: |E*| of the specimen over that of its law, at rest; one with facets.
     largest_modulus_percent: Largest effect on |E*| over the tests, percent.
     largest_phase_deg: Largest effect on the phase over the tests, degrees.

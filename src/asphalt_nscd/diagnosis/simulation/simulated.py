@@ -6,7 +6,7 @@ and M. The steady response to the driven head solves (E* K - omega^2 M) u = F.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import as_file, files
 from pathlib import Path
 
@@ -41,6 +41,11 @@ class NumericalSpecimen:
         return np.asarray(
             self.geometry.form_factor() * (force + self.geometry.mass_factor() * omega**2), complex
         )
+
+    def law_alone(self) -> NumericalSpecimen:
+        """One that moves only where Eq. (1) counts it: it shows the law of its bonds and adds nothing."""
+        stiffness, mass = 1.0 / self.geometry.form_factor(), self.geometry.mass_factor()
+        return replace(self, stiffness=np.array([[stiffness]]), mass=np.array([[mass]]), name="none")
 
     def ratio(self) -> float:
         """c: static modulus of the specimen over that of its law; one with facets, at full size."""
