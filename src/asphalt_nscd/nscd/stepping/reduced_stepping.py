@@ -134,7 +134,11 @@ class ReducedStepper:
         force, velocity = np.empty(driven.size), np.zeros((driven.size, self._part.size))
         done = 0
         while True:
-            taken, code, bond = self._advance(driven[done:], force[done:], velocity[done:])
+            try:
+                taken, code, bond = self._advance(driven[done:], force[done:], velocity[done:])
+            except np.linalg.LinAlgError:
+                # bodies of a regular lattice can turn without a strain of any bond: directions of rounding alone
+                raise FullSystemNeeded("singular", force[:done], velocity[:done]) from None
             done += taken
             if code == DONE:
                 return force, velocity
