@@ -68,6 +68,10 @@ def test_defaults_are_those_of_the_paper(config, monkeypatch):
 def test_numbers_in_scientific_notation_without_a_point_are_numbers(config):
     config["test"] = {"time_step_s": "5e-5", "amplitude_m": "1e-6"}
     assert complete(config)["test"]["time_step_s"] == 5e-5
+    # 2.0 is a whole number to a schema, but no name of a sample
+    config["specimens"]["seeds"], config["test"]["rest_steps"] = [1.0, "2e0"], 1e3
+    made = complete(config)
+    assert repr(made["specimens"]["seeds"] + [made["test"]["rest_steps"]]) == "[1, 2, 1000]"
     assert complete(config)["test"]["amplitude_m"] == 1e-6
 
 
@@ -144,7 +148,14 @@ def test_every_mapping_of_the_schema_refuses_unknown_keys():
         ),
         ({"measurements": {"table": "gone.csv"}}, ["measurements.table is 'gone.csv'"]),
         ({"measurements": {"reconstruct": {"seed": 1, "specimens": 1}}}, ["is 1,", "at least 2"]),
-        ({"measurements": {"reconstruct": {"seed": 1}}}, ["laws.published"]),
+        ({"measurements": {"reconstruct": {"seed": 1}}}, ["laws.published", "but measurements.reconstruct"]),
+        ({"tables_beside": {"tables": ["gone.csv"]}}, ["tables_beside.tables[0] is 'gone.csv'"]),
+        # as `deposit` would, after other samples have been poured
+        ({"packing_study": {**PACKING, "frictions": [101]}}, ["packing_study.frictions[0]", "at most 100"]),
+        (
+            {"audit": {"seed": 1, "temperature_C": 15, "likeliest_friction": 101}},
+            ["audit.likeliest_friction"],
+        ),
         ({"laws": {"simulate": "published"}}, ["laws.published"]),
         ({"geometry": 25}, ["geometry is 25"]),
         ({"geometry": "gone.csv"}, ["geometry is a table"]),

@@ -43,7 +43,7 @@ def complete_study(config: Mapping[str, Any], source: str) -> dict[str, Any]:
         raise InputError(f"{source}: the study is empty; give one with --configfile config/paper.yaml.")
     for error in Draft202012Validator(rules).iter_errors(study):
         _convert(study, error)
-    study = _rounded(study)
+    study = _rounded(_whole(study, rules))
     errors = [
         part
         for error in Draft202012Validator(rules).iter_errors(study)
@@ -122,6 +122,16 @@ def _convert(study: dict[str, Any], error: ValidationError) -> None:
                 reduce(getitem, keys, study)[last] = (int if whole else float)(part.instance)
 
 
+def _whole(value: Any, schema: Mapping[str, Any]) -> Any:
+    """2.0 as 2, where the schema asks for a whole number: it takes both, and file names and steps do not."""
+    if isinstance(value, dict):
+        return {key: _whole(item, schema.get("properties", {}).get(key, {})) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_whole(item, schema.get("items", {})) for item in value]
+    asked = schema.get("type") == "integer" and isinstance(value, float) and value.is_integer()
+    return int(value) if asked else value
+
+
 def _rounded(value: Any) -> Any:
     """Numbers with the digits that file names and tables keep, so that all of them match."""
     if isinstance(value, Mapping):
@@ -187,7 +197,7 @@ def _check(study: dict[str, Any], source: str) -> None:
     published = study["laws"].get("published")
     users = {
         "laws.simulate": study["laws"]["simulate"] == "published",
-        "rheology.reconstruct": "reconstruct" in study["measurements"],
+        "measurements.reconstruct": "reconstruct" in study["measurements"],
         "audit": "audit" in study,
     }
     if not published and any(users.values()):
@@ -211,7 +221,7 @@ def _check(study: dict[str, Any], source: str) -> None:
         **{f"specimens.packings[{n}]": path for n, path in enumerate(study["specimens"].get("packings", []))},
         **{f"published.{key}": path for key, path in study.get("published", {}).items()},
         **{
-            f"tables_beside[{n}]": path
+            f"tables_beside.tables[{n}]": path
             for n, path in enumerate(study.get("tables_beside", {}).get("tables", []))
         },
     }.items():
