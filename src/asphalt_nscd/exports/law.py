@@ -80,6 +80,11 @@ class ExportedLaw:
         title = ONE_TEMPERATURE.get(self.kind) or LAWS[self.kind].title
         return f"{title}{shift}"
 
+    @property
+    def is_forecast(self) -> bool:
+        """Whether it comes of a recipe, so that no test of the mix stands behind it."""
+        return self.source.startswith("forecast ")
+
     def loose(self) -> str:
         """A sentence on parameters that the tests do not determine; empty where there are none."""
         if not self.unseen:
