@@ -453,6 +453,29 @@ def test_structure_is_left_where_either_chance_is_below_half_of_a_step_s(fit, pa
 
 
 @pytest.mark.parametrize(
+    ("chance", "odd_phases", "said"),
+    [
+        (1e-4, [], "specimen A, phase: 5 times its standard error."),
+        (0.8, [], "no pattern stands out."),
+        (
+            0.8,
+            [{"specimen": "B", "temperature_C": None, "phase_deg": 4.0, "interval_95": [3.0, 5.0]}],
+            "no pattern stands out beside what is to be checked first.",
+        ),
+    ],
+)
+def test_a_pattern_that_chance_makes_is_not_told_to_be_beyond_scatter(chance, odd_phases, said):
+    """An odd specimen is no rung: it makes the tests fit badly, whatever the largest pattern beside it."""
+    found = {
+        "verdict": "unexplained_structure",
+        "lack_of_fit_p_value": 1e-30,
+        "largest_pattern_left": {"pattern": "specimen A, phase", "p_value": chance, "z": 5.0},
+        "odd_phases": odd_phases,
+    }
+    assert row("Unexplained", **found) == [f"Beyond scatter, {said}"]
+
+
+@pytest.mark.parametrize(
     ("specimens", "most", "too_few"),
     [(3, 2, True), (3, 1, False), (4, 2, True), (5, 2, False), (1, 2, False)],
 )

@@ -104,9 +104,13 @@ def changed(content: Content, key: str) -> tuple[list[str], list[str], bool]:
 
 def exceeds_scatter(content: Content) -> bool:
     """Whether named causes leave structure, by lack of fit or largest pattern left, at half a step's chance each."""
+    return content["lack_of_fit_p_value"] <= 0.5 * ALPHA_PER_STEP or pattern_stands_out(content)
+
+
+def pattern_stands_out(content: Content) -> bool:
+    """Whether the largest pattern that causes leave is itself no chance."""
     pattern = content["largest_pattern_left"]
-    chances = [content["lack_of_fit_p_value"], 1.0 if pattern is None else pattern["p_value"]]
-    return min(chances) <= 0.5 * ALPHA_PER_STEP
+    return pattern is not None and bool(pattern["p_value"] <= 0.5 * ALPHA_PER_STEP)
 
 
 def parts_left(content: Content) -> list[Content]:
