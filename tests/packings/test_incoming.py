@@ -232,6 +232,13 @@ def test_positions_must_resolve_a_ten_thousandth_of_a_radius(tmp_path):
         an.read_packing(tmp_path / "far.csv")
 
 
+@pytest.mark.parametrize("unit", ["in", "MM", ""])
+def test_a_unit_that_is_none_is_refused_in_a_sentence(tmp_path, unit):
+    (path := tmp_path / "pile.csv").write_text("x,y,z,radius\n5,5,5,5\n5,5,15,5\n")
+    with pytest.raises(an.InputError, match=f"unit '{unit}' is not known; give one of m, cm, mm, um"):
+        an.read_packing(path, unit=unit)
+
+
 def test_a_stated_unit_decides(tmp_path):
     (tmp_path / "cm.csv").write_text("x,y,z,radius\n1,2,3,0.4\n1,2,4,0.4\n")
     assert an.read_packing(tmp_path / "cm.csv", unit="cm").radius_m.tolist() == [0.004, 0.004]

@@ -43,6 +43,8 @@ class Spheres:
         `stated` is the unit that the user gives; if None it is that of the file, or the one that fits radii of
         aggregate.
         """
+        if stated is not None and stated not in UNITS:
+            raise InputError(f"unit {stated!r} is not known; give one of {', '.join(UNITS)}.")
         if stated is not None and self.unit is not None and stated != self.unit:
             raise InputError(f"{self.path}: its columns are in {self.unit}; leave out --unit {stated}.")
         unit = stated or self.unit
