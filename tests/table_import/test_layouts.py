@@ -253,3 +253,15 @@ def test_title_lines_of_a_text_file(tmp_path):
     lines += [f"{s};{t:g};{f:g};{e};{p}".replace(".", ",") for (s, t, f), (e, p) in TESTS.items()]
     (tmp_path / "t.csv").write_bytes("\r\n".join(lines).encode("cp1252"))
     assert held(read_campaign([tmp_path / "t.csv"])[0], 2) == TESTS
+
+
+def test_specimen_and_temperature_before_those_across_are_no_head_of_an_export(tmp_path):
+    across = [value for t in TEMPERATURES for value in (t, None)]
+    rows = [["Specimen", "Temperature (°C)", *across], [None, "f (Hz)", *["E* (MPa)", "Phase (°)"] * 3]]
+    for s, f in product(SPECIMENS, FREQUENCIES):
+        rows.append([s, f, *(one(s, t, f) for t in TEMPERATURES for one in (modulus, phase))])
+    table = read(tmp_path, rows, "t.xlsx")
+    found = zip(
+        *columns(table, "specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"), strict=True
+    )
+    assert {(s, t, f): (e, p) for s, t, f, e, p in found} == TESTS

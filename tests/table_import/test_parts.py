@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
-from table_import.slips import refused
+from table_import.slips import HEADER, ROWS, read, refused
 
 from asphalt_nscd.files.csvinput import Table
 from asphalt_nscd.files.errors import InputError
@@ -166,3 +166,23 @@ def test_files_passed_over_are_told_by_reason():
         "0.csv, 1.csv, 2.csv and 2 more (the file is empty); d.csv (line 2: no column for phase)"
     )
     assert (common_mend(empty), common_mend([*empty, other])) == ("export it anew.", "")
+
+
+@pytest.mark.parametrize(
+    ("real", "imaginary"),
+    [
+        ("Re(E*)", "Im(E*)"),
+        ("E real", "E imag"),
+        ("E_real", "E_imaginary"),
+        ("Real E*", "Imaginary E*"),
+        ("E* real part", "E* imaginary part"),
+        ("Storage E'", "Loss E''"),
+        ("E prime", "E double prime"),
+    ],
+)
+def test_real_and_imaginary_part_by_the_names_that_people_give_them(tmp_path, real, imaginary):
+    """The refusal of an unknown one asked to write |E*| for both."""
+    table = [[*HEADER[:3], f"{real} (MPa)", f"{imaginary} (MPa)"], *([*row[:3], 4000, 3000] for row in ROWS)]
+    campaign = read(tmp_path, table)
+    assert campaign.table.numbers("E_MPa") == pytest.approx(5000.0)
+    assert campaign.table.numbers("phase_deg") == pytest.approx(36.8699)

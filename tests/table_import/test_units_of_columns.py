@@ -53,6 +53,11 @@ def test_a_unit_that_is_confirmed_or_stands_elsewhere(tmp_path, rows, chosen):
     assert plain(read(tmp_path, rows, **chosen).table) == as_is(tmp_path)
 
 
+def test_a_quantity_without_a_unit_names_none_that_is_empty(tmp_path):
+    table = [[*HEADER[:4], "tan delta (%)"], *ROWS]
+    refused(read, tmp_path, table, names=["'%' is not a unit of tan_delta; give one of -, 1."])
+
+
 def test_a_unit_that_is_chosen_and_stands_below(tmp_path):
     assert read(tmp_path, BELOW, E_ksi="Wert").table.numbers("E_MPa")[0] == pytest.approx(67568.62147)
 

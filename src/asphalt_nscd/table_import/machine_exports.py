@@ -40,7 +40,8 @@ class _Header:
             rest = [value.strip()]
         match = re.fullmatch(r"(.*?)\s*[(\[]([^)\]]*)[)\]]\s*:?", label)
         name = (match[1] if match else label).strip(" :").casefold()
-        if not rest or not rest[0]:
+        # `Specimen, Temperature (°C), 4, 20` names columns, and no specimen.
+        if not rest or not rest[0] or quantity_of(rest[0]) == "temperature_C":
             return
         # `Sat, Dec 7, 2019, 10:25 AM` is three cells where commas part the columns.
         self.values[name] = ", ".join(rest) if name in (*_COMMENTS, *_DATE) else rest[0]

@@ -88,11 +88,14 @@ def recognise(header: str, known: dict = MEASURED) -> Meaning | None:
         if units and not unit:
             return Meaning(quantity, None)
         # Refused only after all ways to read the name: another may give a unit that the quantity has.
-        foreign = foreign or quantity
+        foreign = foreign or (quantity, unit)
     if foreign:
-        allowed = ", ".join(known[foreign][1])
+        quantity, unit = foreign
+        written = re.search(r"[(\[{]([^)\]}]*)[)\]}]$", header)
+        unit = written[1] if written else unit
+        allowed = ", ".join(filter(None, known[quantity][1]))
         mend = f"give one of {allowed}" if allowed else "write what stands in brackets without them"
-        raise InputError(f"column {header!r}: its unit is none of {foreign}; {mend}.")
+        raise InputError(f"column {header!r}: {unit!r} is not a unit of {quantity}; {mend}.")
     return None
 
 
