@@ -15,6 +15,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
+import yaml
 from forks import forked
 from workspace import Plan, Workspace
 
@@ -300,6 +301,21 @@ def test_edited_record_is_reduced_again(workspace):
     workspace.configure(**one, reduction={"cycles": 2})
     record.write_text("\n".join(rows) + "\n")
     assert workspace.planned(target) == {"reduce": 1}
+
+
+def test_what_was_reconstructed_with_a_table_of_specimens_is_made_again_with_it(workspace):
+    """Forces drawn for one height and reduced with another would give another |E*|."""
+    shape = {"b_mm": 10, "B_mm": 20, "e_mm": 10, "h_mm": 60, "mass_kg": 0.021, "mobile_mass_kg": 0.008}
+    values = ",".join(map(str, shape.values()))
+    shapes = workspace.folder / "shapes.csv"
+    shapes.write_text(f"specimen,{','.join(shape)}\n1,{values}\n2,{values}\n")
+    specimens = yaml.safe_load((workspace.folder / "config/smoke.yaml").read_text())["specimens"]
+    workspace.configure(geometry="shapes.csv", specimens=specimens | {"geometry": shape})
+    target = "results/smoke/measured.csv"
+    done = workspace.run(target, "--cores", "1")
+    assert done.returncode == 0, done.stderr
+    shapes.write_text(shapes.read_text().replace(",60,", ",66,"))
+    assert workspace.planned(target) == {"reconstruct": 1, "reduce": 1}
 
 
 def test_all_asks_for_each_file_by_name(workspace, plan_of):

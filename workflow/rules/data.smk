@@ -19,6 +19,7 @@ rule reconstruct:
     """Measurements from the published laws, called "reconstructed" from here on: the authors' are not published."""
     input:
         table=STUDY["laws"]["published"]["table"] if "published" in STUDY["laws"] else [],
+        shapes=SHAPES,
         code=code("reconstruct"),
     output:
         measurements="<results>/measurements.csv",

@@ -27,6 +27,7 @@ rule extend:
         diagnosis=NAMED[0],
         law=NAMED[1],
         measured="<results>/measured.csv",
+        shapes=SHAPES,
         code=code("extend", *modules_of("diagnosis.causes"), without=SAID),
     output:
         laws=expand(EXTENDED_LAWS, temperature=TEMPERATURES, frequency=FREQUENCIES, allow_missing=True),

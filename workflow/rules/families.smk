@@ -61,6 +61,7 @@ use rule diagnose as diagnose_family with:
     input:
         measured=f"{FAMILY}measured.csv",
         specimen=f"<results>/diagnosis/specimens/{SAMPLES[0]}.h5",
+        shapes=SHAPES,
         code=code("diagnose", *modules_of("diagnosis.causes")),
     output:
         [f"{FAMILY}{os.path.basename(path)}" for path in [*DIAGNOSED, "law.json"]],
