@@ -131,7 +131,8 @@ def test_what_is_found_at_one_frequency_is_told_with_both_parts():
         [odd("level at one frequency", at, 0.1, 0.01)],
     )
     one, twice = found.content(1.0), found.content(2.0)
-    assert one["modulus_percent"] == pytest.approx(100.0 * np.expm1(0.1)) and one["phase_deg"] == pytest.approx(2.0)
+    assert one["modulus_percent"] == pytest.approx(100.0 * np.expm1(0.1))
+    assert one["phase_deg"] == pytest.approx(2.0)
     half = odd_frequency(
         {("level at one frequency", at): (np.log(0.5), 0.01)}, [odd("level at one frequency", at, -0.7, 0.01)]
     ).content(1.0)

@@ -90,7 +90,8 @@ def test_frequencies_that_scatter_by_a_per_cent_are_one(tmp_path):
 def test_a_frequency_that_is_the_same_everywhere_keeps_its_digits(tmp_path):
     rows = [f"A,{t},{f},{6000 + f},20" for t in (0, 10, 20) for f in (0.1, 1)]
     path = table(tmp_path, "specimen,temperature_C,frequency_Hz,E_MPa,phase_deg", rows)
-    assert read_observations(path, PAPER_GEOMETRY)[0].frequencies.tolist() == [0.1, 1.0]  # their mean is another 0.1
+    # the mean of three 0.1 is another 0.1
+    assert read_observations(path, PAPER_GEOMETRY)[0].frequencies.tolist() == [0.1, 1.0]
 
 
 def test_fine_sweeps_keep_their_frequencies(tmp_path):

@@ -180,6 +180,7 @@ FAR = np.column_stack([np.round(MM[:, :3] + 5e6, -1), MM[:, 3]])
         (HEADED, "without spheres"),
         ("x,y,z\n1,2,3\n", "radius"),
         (f"{HEADED}1,2,3,oops\n", "sphere 1: radius = 'oops'"),
+        ("x,y,z,radius,diameter\n1,2,3,4,8\n1,2,9,4,4\n", "'radius' and 'diameter' give different sizes"),
         (f"{HEADED}1,2,3,-4\n", "sphere 1 has a radius of zero or less"),
         (f"{HEADED}1,2,3,inf\n", "sphere 1 is not finite"),
         (f"{HEADED}1,2,3,400\n", "--unit"),
@@ -237,6 +238,11 @@ def test_a_unit_that_is_none_is_refused_in_a_sentence(tmp_path, unit):
     (path := tmp_path / "pile.csv").write_text("x,y,z,radius\n5,5,5,5\n5,5,15,5\n")
     with pytest.raises(an.InputError, match=f"unit '{unit}' is not known; give one of m, cm, mm, um"):
         an.read_packing(path, unit=unit)
+
+
+def test_two_columns_may_say_the_same_size(tmp_path):
+    (path := tmp_path / "both.csv").write_text("x,y,z,radius,diameter\n1,2,3,4,8\n1,2,11,4,8.001\n")
+    assert an.read_packing(path, unit="mm").radius_m.tolist() == [0.004, 0.004]
 
 
 def test_a_stated_unit_decides(tmp_path):

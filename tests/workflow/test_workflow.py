@@ -318,6 +318,20 @@ def test_what_was_reconstructed_with_a_table_of_specimens_is_made_again_with_it(
     assert workspace.planned(target) == {"reconstruct": 1, "reduce": 1}
 
 
+def test_an_older_table_put_in_the_place_of_one_of_one_s_own_is_reduced_and_fitted(workspace):
+    """Copies and archives keep dates."""
+    workspace.configure(
+        measurements=workspace.measure(), laws={"simulate": "fitted"}, **dict.fromkeys(OPTIONAL)
+    )
+    table, targets = workspace.folder / "mine.csv", ("results/smoke/measured.csv", FITS[0])
+    done = workspace.run(*targets, "--cores", "1")
+    assert done.returncode == 0, done.stderr
+    times = table.stat()
+    table.write_text(table.read_text().replace("1,0,3,9000", "1,0,3,9100"))
+    os.utime(table, ns=(times.st_atime_ns, times.st_mtime_ns))
+    assert workspace.planned(*targets) == {"reduce": 1, "fit": 1}
+
+
 def test_all_asks_for_each_file_by_name(workspace, plan_of):
     """Else one that a failed run left missing between newer ones would not be made."""
     (workspace.folder / "study.yaml").write_text((workspace.folder / "config/paper.yaml").read_text())

@@ -80,8 +80,22 @@ def test_a_stamp_changes_with_the_content_only(tmp_path, package):
     kernel.write_text('"""What it does."""\n# and why\n')
     assert sources.stamp(tmp_path, "plotting", files).read_text() == first
     kernel.write_text("SIGN = -1\n")
+    for file in (*files, path):  # as from an archive of another version: all are older than any result
+        os.utime(file, (1e9, 1e9))
     assert sources.stamp(tmp_path, "plotting", files).read_text() != first
-    assert path.stat().st_mtime_ns == max(file.stat().st_mtime_ns for file in files)
+    assert path.stat().st_mtime > 1e9
+    path.unlink()
+    assert sources.stamp(tmp_path, "plotting", files).stat().st_mtime == 1e9
+
+
+def test_a_table_s_stamp_is_new_where_an_older_table_takes_its_place(tmp_path):
+    (table := tmp_path / "mine.csv").write_text("E\n1\n")
+    os.utime(table, (1e9, 1e9))
+    path = sources.stamp_of_table(tmp_path / "rows", table)
+    assert path.stat().st_mtime == 1e9
+    table.write_text("E\n2\n")
+    os.utime(table, (1e9, 1e9))
+    assert sources.stamp_of_table(tmp_path / "rows", table).stat().st_mtime > 1e9
 
 
 def test_what_one_process_parsed_another_takes_over(package, another_process):

@@ -49,6 +49,7 @@ rule reduce:
     """Section 2: forces and displacements at the head as complex moduli."""
     input:
         measurements=MEASUREMENTS,
+        content=content_of(STUDY["measurements"].get("table")),
         records=records(MEASUREMENTS),
         shapes=SHAPES,
         code=code("reduce"),

@@ -25,6 +25,7 @@ rule deposit:
     input:
         compiled="<results>/compiled/deposit",
         counts=COUNTS,
+        content=content_of(COUNTS),
         code=code("deposit"),
     output:
         "<results>/deposits/s{seed}.h5",

@@ -18,6 +18,7 @@ from asphalt_nscd.workflow_support.sources import (
     source_files,
     stamp,
     stamp_of_row,
+    stamp_of_table,
 )
 
 
@@ -171,6 +172,11 @@ def row_at(table):
     return lambda wildcards: local(
         stamp_of_row(".snakemake/rows", table, "temperature_C", float(wildcards.temperature)).as_posix()
     )
+
+
+def content_of(table):
+    """What stands for the content of a table: one that is put in its place may be older than results."""
+    return local(stamp_of_table(".snakemake/rows", table).as_posix()) if table else []
 
 
 def part_of_study(name, **content):

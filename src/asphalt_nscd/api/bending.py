@@ -50,7 +50,7 @@ class Test(Result):
 
         time_s, displacement_m, force_N             (s,)         record at the head
         broken                                      (k,)         bonds in the order in which they broke
-        profile/velocity_m_s                        (t, l)       mean along the drive, by profile/height_m; NaN without profile/spheres
+        profile/velocity_m_s                        (t, l)       mean along the drive by profile/height_m, or NaN
         frames/time_s                               (f,)         from the start of the oscillation
         frames/position_m, frames/radius_m          (n, 3) (n,)  spheres before the test
         frames/displacement_m, frames/velocity_m_s  (f, n, 3)    of spheres; weight included

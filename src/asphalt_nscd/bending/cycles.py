@@ -103,7 +103,7 @@ def skeleton_of(model: Model, pressure: float, friction: float) -> Skeleton:
         position[first[between]] - position[second[between]], axis=1
     )
     shrunk = 1.0 - (1.0 - model.volume_reduction) ** (1.0 / 3.0)
-    # grains poured here overlap by less than half of it; of another program's one pair may overlap by more, or none touch
+    # grains poured here overlap by less than half of it; of another program's, one pair may overlap by more
     least = np.clip(apart.min(), shrunk - TOUCHING / 2.0, shrunk)
     touching = between[apart < least + TOUCHING]
     if not touching.size:

@@ -128,7 +128,8 @@ def conclude(
     files = (given,) if campaign is None else campaign.files
     observed, origin = read_observations(measurements, geometry, stated.static_modulus)
     if simulated.specimen is None and numerical.geometry.test != observed.test_type:
-        numerical = numerical.law_alone()  # what a bent trapezoid's own motion adds is in no test of a cylinder
+        # what a bent trapezoid's own motion adds is in no test of a cylinder
+        numerical = numerical.law_alone()
     progress("Diagnose", 1, STEPS)
     try:
         diagnosis = diagnose(observed, scatter, draws=draws.number, seed=draws.seed)

@@ -15,6 +15,7 @@ from asphalt_nscd.packings.spheres import UNITS, Spheres
 RADIUS = {"radius": 1.0, "r": 1.0, "rad": 1.0, "radii": 1.0, "diameter": 0.5, "d": 0.5}
 AXES = ("x", "y", "z")
 UNWRAPPED = {"xu": "x", "yu": "y", "zu": "z"}
+SAME_SIZE = 0.01  # of a radius, by which two columns of sizes may differ
 _UNITS = "|".join(UNITS)
 
 
@@ -132,6 +133,14 @@ def _spheres(path: Path, frame: pd.DataFrame, notes: list[str]) -> Spheres:
         named = ", ".join(columns[quantity][0] for quantity in wanted)
         raise InputError(f"{path}: columns {named} have different units; give all in one.")
     values = [_numbers(path, frame, columns[quantity][0]) for quantity in wanted]
+    for other in sizes[1:]:
+        name, unit = columns[other]
+        apart = RADIUS[other] * _numbers(path, frame, name) - RADIUS[sizes[0]] * values[3]
+        # a file may write one of both with few digits
+        if unit == columns[sizes[0]][1] and (np.abs(apart) > SAME_SIZE * RADIUS[sizes[0]] * values[3]).any():
+            raise InputError(
+                f"{path}: columns {columns[sizes[0]][0]!r} and {name!r} give different sizes; keep the right one."
+            )
     return Spheres(path, np.column_stack(values[:3]), RADIUS[sizes[0]] * values[3], units.pop(), notes)
 
 

@@ -16,7 +16,8 @@ def random_lattice(
     constant is the largest diameter of a sphere, widened to fit the box. The paper's 14 160 spheres outnumber its at
     most 8 000 cells, so a cell holds either one sphere or up to eight of those that fit into its octants.
     """
-    by_size = np.argsort(diameters, kind="stable")  # the same seed gives the same packing, in whatever order they come
+    # a seed gives the same packing, in whatever order the sizes come
+    by_size = np.argsort(diameters, kind="stable")
     diameters, counts = np.asarray(diameters, float)[by_size], np.asarray(counts, int)[by_size]
     # a size of which there is no sphere takes no room
     diameters, counts = diameters[counts > 0], counts[counts > 0]

@@ -83,14 +83,28 @@ def stamp_of_row(folder: str | Path, table: str | Path, key: str, value: float) 
     return noted(Path(folder, f"{path.stem}-{value:g}"), digest, [path] if path.is_file() else [])
 
 
+def stamp_of_table(folder: str | Path, table: str | Path) -> Path:
+    """A stamp for the content of a table, named by it."""
+    path = Path(table)
+    there = path.is_file()
+    digest = hashlib.sha256(path.read_bytes() if there else b"").hexdigest()
+    return noted(Path(folder, path.stem), digest, [path] if there else [])
+
+
 def noted(path: Path, content: str, files: Sequence[Path] = ()) -> Path:
-    """Write `content` to `path`, dated as the newest of `files` if there are any, unless it stands there; the path."""
-    if not path.is_file() or path.read_text() != content:
+    """Write `content` to `path` unless it stands there; the path.
+
+    Where nothing stood it is dated as the newest of `files`, if there are any: a lost stamp must not look like a
+    change. Else it is dated now: files that were put in place of others keep their dates, and may be older than
+    results.
+    """
+    lost = not path.is_file()
+    if lost or path.read_text() != content:
         with atomic_path(path) as temporary:
             temporary.write_text(content)
-        if files:
+        if files and lost:
             newest = max(file.stat().st_mtime_ns for file in files)
-            os.utime(path, ns=(newest, newest))  # a lost stamp must not look like a change
+            os.utime(path, ns=(newest, newest))
     return path
 
 
