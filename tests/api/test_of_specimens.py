@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from pandas.testing import assert_frame_equal
-from theory.specimens import jittered_beam, save_specimen
+from theory.specimens import as_if_poured, jittered_beam, save_specimen
 
 import asphalt_nscd as an
 from asphalt_nscd.api import specimens
@@ -31,7 +31,9 @@ STEP = 1e-4
 @pytest.fixture(scope="module")
 def beam(tmp_path_factory) -> an.Specimen:
     """A beam that was not poured, from a file."""
-    save_specimen(path := tmp_path_factory.mktemp("api") / "beam.h5", jittered_beam(area="facets"))
+    save_specimen(
+        path := tmp_path_factory.mktemp("api") / "beam.h5", as_if_poured(jittered_beam(area="facets"))
+    )
     return an.Specimen.read(path)
 
 
@@ -108,6 +110,18 @@ def test_fatigue(beam):
     law = an.FatigueLaw(1e-3, 4.0)
     found, expected = an.fatigue(beam, 2e-4, law=law, bonds=BONDS), fatigue(beam.bonded, 2e-4, law, BONDS)
     assert found.cycles.tolist() == expected.cycles.tolist()
+
+
+def test_a_choice_of_bonds_that_changes_nothing_is_told_by_each_test(beam):
+    idle = an.Bonds(poisson=0.2)  # the beam has facets
+    cycling = an.Cycling(amplitude_m=1e-6, all_cycles=1, read_cycles=1, steps_in_cycle=20)
+    pulled = an.Ramp(duration_s=0.01, steps=10, displacement_m=1e-7)
+    with pytest.warns(UserWarning) as told:
+        an.cycle(beam, LAW, 20.0, 15.0, cycling=cycling, bonds=idle)
+        an.ramp(beam, LAW, 15.0, pulled=pulled, bonds=idle)
+        an.fatigue(beam, 2e-4, bonds=idle)
+    assert ["poisson = 0.2 changes nothing" in str(each.message) for each in told] == [True] * 3
+    assert {each.filename for each in told} == {__file__}
 
 
 def test_a_specimen_is_condensed_once_for_each_kind_of_bonds(beam):

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.spatial import ConvexHull
-from theory.specimens import jittered_beam
+from theory.specimens import as_if_poured, jittered_beam
 
 from asphalt_nscd.bending import cycles
 from asphalt_nscd.bending.bending_test import bond_law
@@ -24,8 +24,7 @@ from asphalt_nscd.rheology.burgers import Burgers
 LAW = Burgers(0.24e9, 0.04e9, 0.48e9, 0.008e9)
 GRAINS = jittered_beam(shape=(3, 2, 13), area="facets")
 LEAST = np.min((GRAINS.network.gap / GRAINS.network.length)[GRAINS.network.second < GRAINS.radius.size])
-# shrunk so much that the two closest grains touched before
-BEAM = replace(GRAINS, volume_reduction=1.0 - (1.0 - LEAST) ** 3)
+BEAM = as_if_poured(GRAINS)
 CONTENT = condensed(BEAM, "beam", Bonds())
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.measurements.twopoint import Geometry
 from asphalt_nscd.specimen.trimming import layer_height, trim
 
@@ -105,3 +106,17 @@ def test_a_wider_box_is_cut_to_the_thickness(layer):
         np.concatenate([position, outside]), np.append(radius, radius[:60]), GEOMETRY, REDUCTION, REACH
     )
     assert np.abs(specimen.position[:, 1]).max() <= GEOMETRY.e / 2
+
+
+def test_a_layer_just_as_high_as_the_foot_is_wide_is_enough():
+    """Rounding of the mean of heights takes some 1e-17 m off a lattice of four layers of 5 mm."""
+    cells = np.stack(np.meshgrid(np.arange(20), np.arange(4), np.arange(4), indexing="ij"), -1).reshape(-1, 3)
+    position, radius = 5e-3 * (cells + 0.5), np.full(len(cells), 2.5e-3)
+    assert layer_height(position, radius) == pytest.approx(20e-3, rel=1e-12)
+    for foot, enough in ((20e-3, True), (20e-3 * (1.0 + 1e-12), True), (20e-3 * (1.0 + 1e-6), False)):
+        geometry = Geometry(b=foot, B=foot, e=20e-3, h=100e-3, mass=0.1, mobile_mass=0.0)
+        if enough:
+            assert trim(position, radius, geometry, REDUCTION, REACH).radius.size == len(cells)
+        else:
+            with pytest.raises(InputError, match="the deposited layer is 20.0 mm high"):
+                trim(position, radius, geometry, REDUCTION, REACH)

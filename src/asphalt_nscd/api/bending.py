@@ -240,7 +240,7 @@ def bend(
         doubts.append(told(test.attributes))
     elif test.broken_bonds:
         doubts.append(damage(test.attributes))
-    _warn(doubts)
+    warn_of(doubts)
     return test
 
 
@@ -300,7 +300,7 @@ def hold(
     law = law if isinstance(law, Law) else Law.read(law)
     lowest, highest = held.band
     table = of_hold(model_in_memory(given, bonds), law.of_bonds(lowest, temperature_C, highest).bonds, held)
-    _warn([idle_option_note(bonds, given.bonded.area), doubt_of_hold(table)])
+    warn_of([idle_option_note(bonds, given.bonded.area), doubt_of_hold(table)])
     return table
 
 
@@ -341,6 +341,11 @@ def cycle(
         With one sentence, where the law does not hold at this temperature, no grains touch, or contacts find no
         balance.
 
+    Warns
+    -----
+    UserWarning
+        If a choice of `bonds` has no effect.
+
     Examples
     --------
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
@@ -357,11 +362,19 @@ def cycle(
 
     given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
     law = law if isinstance(law, Law) else Law.read(law)
+    warn_of([idle_option_note(bonds, given.bonded.area)])
     followed = law.of_bonds(frequency_Hz / cycling.all_cycles, temperature_C, frequency_Hz).bonds
     return of_cycles(_model(_Once(given), bonds), followed, frequency_Hz, cycling)
 
 
-def _warn(sentences: list[str]) -> None:
+def warn_of(sentences: list[str]) -> None:
+    """Warn the user of a function that is `checked` and calls this.
+
+    Parameters
+    ----------
+    sentences : list of str
+        Those that are empty are left out.
+    """
     for sentence in filter(None, sentences):
         # 4: past this and `checked`, so that the warning shows the user's own line.
         warnings.warn(sentence, stacklevel=4)

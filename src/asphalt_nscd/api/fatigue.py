@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from asphalt_nscd.api.arguments import checked
+from asphalt_nscd.api.bending import warn_of
 from asphalt_nscd.api.specimens import Specimen
 from asphalt_nscd.bending import fatigue as test
+from asphalt_nscd.bending.condensing import idle_option_note
 from asphalt_nscd.bending.further_settings import FatigueLaw
 from asphalt_nscd.bending.settings import Bonds
 from asphalt_nscd.nscd.bonds.fatigue import FatigueHistory
@@ -44,6 +46,11 @@ def fatigue(
     InputError
         With one sentence, for a strain out of range or a specimen that is no trapezoid.
 
+    Warns
+    -----
+    UserWarning
+        If a choice of `bonds` has no effect.
+
     Examples
     --------
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
@@ -55,4 +62,5 @@ def fatigue(
     32.0
     """
     given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
+    warn_of([idle_option_note(bonds, given.bonded.area)])
     return test.fatigue(given.bonded, strain, law, bonds)

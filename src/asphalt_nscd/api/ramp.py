@@ -9,11 +9,12 @@ import numpy as np
 import pandas as pd
 
 from asphalt_nscd.api.arguments import checked
-from asphalt_nscd.api.bending import model_in_memory
+from asphalt_nscd.api.bending import model_in_memory, warn_of
 from asphalt_nscd.api.laws import Law
 from asphalt_nscd.api.pictures import shown_in_notebooks
 from asphalt_nscd.api.results import Result
 from asphalt_nscd.api.specimens import Specimen
+from asphalt_nscd.bending.condensing import idle_option_note
 from asphalt_nscd.bending.further_settings import Ramp
 from asphalt_nscd.bending.ramp import RAMP, told
 from asphalt_nscd.bending.ramp import ramp as of_ramp
@@ -118,6 +119,11 @@ def ramp(
     InputError
         With one sentence, where the law does not hold at this temperature or no step could be made.
 
+    Warns
+    -----
+    UserWarning
+        If a choice of `bonds` has no effect.
+
     Examples
     --------
     >>> from asphalt_nscd.api.specimens import Vibration, pour, specimen
@@ -131,6 +137,7 @@ def ramp(
     """
     given = specimen if isinstance(specimen, Specimen) else Specimen.read(specimen)
     law = law if isinstance(law, Law) else Law.read(law)
+    warn_of([idle_option_note(bonds, given.bonded.area)])
     lowest, highest = pulled.band
     followed = law.of_bonds(lowest, temperature_C, highest).bonds
     arrays, attributes = of_ramp(model_in_memory(given, bonds), followed, pulled)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pandas as pd
 from scipy import sparse
-from scipy.spatial import ConvexHull
+from scipy.spatial import ConvexHull, QhullError
 
 from asphalt_nscd.bending.bending_test import bond_law
 from asphalt_nscd.bending.further_settings import Cycling
@@ -114,7 +114,13 @@ def skeleton_of(model: Model, pressure: float, friction: float) -> Skeleton:
     one, two = first[touching], second[touching]
     effective = radius[one] * radius[two] / (radius[one] + radius[two])
     length = np.linalg.norm(position[one] - position[two], axis=1)
-    volume = float(ConvexHull(position).volume)  # of the centres, between which the forces act
+    try:
+        volume = float(ConvexHull(position).volume)  # of the centres, between which the forces act
+    except QhullError:  # as of a slice one grain thick
+        raise InputError(
+            f"{model.name}: the centres of its grains lie in one plane, between which no pressure can act; take a "
+            "specimen of more grains."
+        ) from None
     return Skeleton.preloaded(touching, effective, length, volume, pressure, friction=friction)
 
 
