@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -45,3 +47,17 @@ def test_between_two_specimens_is_half_the_square_of_their_difference():
 
 def test_without_a_repeated_condition_there_is_none():
     assert coefficients(table(1)) is None
+
+
+def test_tests_that_are_held_back_do_not_widen_what_their_repeats_are_judged_by():
+    """A delay tilts the phases of a specimen: beside it a repeat without one would pass for an agreement."""
+    sound = table(4)
+    kept = sound.specimen < 3
+    late = np.where(kept, 1.0, np.exp(1j * sound.omega * 5e-4))
+    found = coefficients(replace(sound, modulus=sound.modulus * late), kept)
+    assert found["within"] == coefficients(sound.subset(kept))["within"]
+    assert found["between"]["phase_deg"] > 1.2 * coefficients(sound.subset(kept))["between"]["phase_deg"]
+    # An isotherm of which one specimen is left says nothing.
+    kept = (sound.specimen == 0) | (sound.isotherm == 0.0)
+    cold, warm = (row["within"] for row in coefficients(sound, kept)["by_isotherm"])
+    assert warm is None and cold == coefficients(sound)["by_isotherm"][0]["within"]

@@ -32,7 +32,7 @@ def check(study, source):
 
         require_feasible(study, source)
     require_writable(results)
-    for folder in (results, ".snakemake/code", ".snakemake/rows"):
+    for folder in (results, *(f".snakemake/{kind}" for kind in ("code", "rows", "tables"))):
         mistrust_future(folder)
     if ALONE and not workflow.output_settings.dryrun:
         found = damaged(results)
@@ -176,7 +176,8 @@ def row_at(table):
 
 def content_of(table):
     """What stands for the content of a table: one that is put in its place may be older than results."""
-    return local(stamp_of_table(".snakemake/rows", table).as_posix()) if table else []
+    # a folder of its own: Snakemake lists one once, and stamps of rows come into theirs later
+    return local(stamp_of_table(".snakemake/tables", table).as_posix()) if table else []
 
 
 def part_of_study(name, **content):

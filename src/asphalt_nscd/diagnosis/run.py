@@ -179,7 +179,7 @@ def conclude(
     content |= {
         "origin": origin,
         "one_sided": one_sided,
-        "repeatability": repeatability.coefficients(diagnosis.observed),
+        "repeatability": repeatability.coefficients(diagnosis.observed, mix.kept),
         "odd_levels": odd.moduli,
         "odd_phases": odd.phases,
         "odd_temperatures": odd.temperatures,

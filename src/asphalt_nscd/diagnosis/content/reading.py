@@ -141,7 +141,7 @@ class Repeatability(TypedDict):
     """The scatter as a laboratory quotes it, of the tests used; null where nothing was repeated.
 
     between: Specimens at one temperature and frequency, all isotherms.
-    within: Tests of one specimen about its own level, all isotherms.
+    within: Tests of one specimen about its own level, all isotherms, without tests held back.
     by_isotherm: The same for each isotherm.
     furthest: The specimen that stands out most; null where nothing compares them.
     """

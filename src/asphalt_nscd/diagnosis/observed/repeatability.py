@@ -17,17 +17,23 @@ from asphalt_nscd.diagnosis.observed.observations import Observations, Vector
 from asphalt_nscd.diagnosis.observed.scatter import unexplained
 
 
-def coefficients(observed: Observations) -> dict[str, Any] | None:
+def coefficients(observed: Observations, kept: NDArray[np.bool_] | None = None) -> dict[str, Any] | None:
     """Coefficients of variation `between` and `within` specimens, for all tests and by isotherm; who is `furthest`.
 
-    Each is {"E_percent", "phase_deg"}; `within` is None where it cannot be told from the specimens' levels. The whole
-    is None where nothing was repeated.
+    `within` is of the tests (n,) that are `kept`, or of all: it judges repeats of the others, which a delay, say,
+    scatters as no repeat does. Each is {"E_percent", "phase_deg"}; `within` is None where it cannot be told from the
+    specimens' levels. The whole is None where nothing was repeated.
     """
     rows = {
         float(t): found
         for t in observed.isotherms
         if (found := _isotherm(observed.subset(observed.isotherm == t))) is not None
     }
+    if kept is not None:
+        for t, found in rows.items():
+            sound = kept & (observed.isotherm == t)
+            left = _isotherm(observed.subset(sound)) if sound.any() else None
+            found["within"] = (np.zeros(2), 0) if left is None else left["within"]
     if not rows:
         return None
     return {
