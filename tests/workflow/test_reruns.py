@@ -173,6 +173,12 @@ OWN = {
         [key("- 25\ngeometry", "- 25\n- 30\ngeometry")],
         "simulate 4 simulate_facets_1 4 simulate_scaled_1 2 simulate_extended_1 4 " + OWN_AFTER,
     ),
+    "one frequency less and one sample more: no test at it": (
+        [key("- 25\ngeometry", "geometry"), key("  - 1\nstudy", "  - 1\n  - 2\nstudy")],
+        "deposit 1 "
+        + SPECIMEN
+        + "simulate 12 simulate_facets 4 simulate_scaled 2 diagnose 1 name_causes 1 extend 2 simulate_extended 8 ...",
+    ),
     "one temperature more": (
         [key("- 30\ntest", "- 30\n- 40\ntest")],
         "fit 1 simulate 4 simulate_facets 1 diagnose 1 name_causes 1 extend 1 simulate_extended 5 ...",

@@ -51,7 +51,10 @@ def located(value):
 
 
 def asked_together(study, frequencies):
-    """Frequencies in the groups in which the study first asked for them: what is new later repeats no other test."""
+    """Frequencies in the groups in which the study first asked for them: what is new later repeats no other test.
+
+    Of one that was left out since no test is made: it may have been left out because its test fails.
+    """
     kept = Path(".snakemake/rows", f"frequencies-{study}.json")
     groups = json.loads(kept.read_text()) if kept.is_file() and Path("results", study).is_dir() else []
     groups = [group for group in groups if not set(group).isdisjoint(frequencies)]
@@ -60,7 +63,8 @@ def asked_together(study, frequencies):
     if workflow.is_main_process and not workflow.output_settings.dryrun:
         kept.parent.mkdir(parents=True, exist_ok=True)
         kept.write_text(json.dumps(groups))
-    return groups
+    asked = [[frequency for frequency in group if frequency in frequencies] for group in groups]
+    return [group for group in asked if group]
 
 
 # How large the attack on the diagnosis is: apart from any study. On the command line numbers come as text.

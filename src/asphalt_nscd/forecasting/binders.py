@@ -182,7 +182,7 @@ def crossover_of(viscosity: float, index: float = RHEOLOGICAL_INDEX) -> float:
 def read_binder(content: Mapping[str, Any], path: str | Path, read_table: TableReader = read_csv) -> Binder:
     """The binder of a recipe, in the form that its keys tell; `path` is the recipe's."""
     if "table" in content:
-        return _measured(Path(path).parent / content["table"], read_table, content.get("poisson", 0.5))
+        return _measured(Path(path).parent / content["table"], read_table)
     if "grade" in content:
         return _graded(content["grade"], path)
     if "A" in content:
@@ -251,8 +251,8 @@ def _shift(content: Mapping[str, Any]) -> WLF | Arrhenius:
     return Arrhenius(of["activation_energy_J_mol"], reference)
 
 
-def _measured(path: Path, read_table: TableReader, poisson: float) -> Binder:
-    """2S2P1D law with a WLF shift of Young's modulus, E = 2 (1 + nu) G, fitted to the table of a rheometer."""
+def _measured(path: Path, read_table: TableReader) -> Binder:
+    """2S2P1D law with a WLF shift of E = 3 G, as of all binders here, fitted to the table of a rheometer."""
     temperature, omega, shear = read_rheometer(path, read_table)
     known = np.unique(temperature)
     if (there := _setpoints(known)) < LEAST_SETPOINTS:
@@ -260,7 +260,7 @@ def _measured(path: Path, read_table: TableReader, poisson: float) -> Binder:
             f"{path}: the shift of a binder needs at least {LEAST_SETPOINTS} temperatures, and its tests have {there}; "
             "add some, or give A and VTS."
         )
-    modulus, glassy = 2.0 * (1.0 + poisson) * shear, 2.0 * (1.0 + poisson) * GLASSY
+    modulus, glassy = 3.0 * shear, 3.0 * GLASSY
     try:
         start = fit_spectrum(omega, temperature, modulus, float(known[known.size // 2]), Form()).law
     except InputError as error:
