@@ -226,3 +226,11 @@ def test_a_result_is_read_as_it_was_written(beam, tmp_path):
     again = an.read(tmp_path / "again.h5")
     assert isinstance(again, an.Specimen) and again.name == "again" and again.attributes == beam.attributes
     assert all(np.array_equal(again.arrays[name], values) for name, values in beam.arrays.items())
+
+
+def test_a_packing_of_own_arrays_is_shown_without_attributes():
+    """Two spheres of 8 mm, one on the other: 16 mm high, half of the section of a cube of 8 mm filled by pi/6."""
+    arrays = {"position": np.array([[4, 4, 4], [4, 4, 12]]) * 1e-3, "radius": np.full(2, 4e-3)}
+    packing = an.Packing(arrays | {"box": np.array([8e-3, 16e-3, 50e-3])}, {})
+    assert repr(packing) == "Packing(2 spheres, radii 4 to 4 mm, layer 16 mm high, solid fraction 0.262)"
+    assert "1.00 in the mean" in packing._repr_html_() and "0.262" in packing._repr_html_()

@@ -305,6 +305,8 @@ def test_two_strains_by_two_modes_take_four_sweeps_where_the_excess_is_largest()
     assert order["temperature_C"] == 20.0 and "2.0 deg above" in order["why"][0]
     assert order["hours"] == pytest.approx(4.0 * Costs().hours("A", 20.0, [1.0, 10.0]), abs=0.005)
     assert fixed_orders.strains(done, Costs(), [found[0] | {"excess_deg": 0.89}]) == []
+    (order,) = fixed_orders.strains(done, Costs(), [found[1] | {"taken_off_deg": 1.8}])
+    assert "2.0 deg above what |E*| requires, when corrected." in order["why"][0]
     assert fixed_orders.strains(DONE, Costs(), found) == []  # a beam oscillates about zero
 
 

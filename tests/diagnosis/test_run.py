@@ -253,3 +253,18 @@ def test_metal_comes_first_where_phases_lie_on_one_side(monkeypatch):
     assert first["specimens"] == ["a metal reference specimen"] and first["why"][0].startswith(
         f"{told} Metal has no"
     )
+
+
+def test_what_is_taken_off_the_tests_is_no_excess_to_look_into():
+    """An established offset of 1.9 deg leaves nothing for ten hours at two strains to explain."""
+    corrected = pd.DataFrame(
+        {
+            "nominal_temperature_C": [0.0, 0.0, 20.0],
+            "recorded_phase_deg": [9.0, 8.0, 30.0],
+            "phase_deg": [7.1, np.nan, 30.0],
+        }
+    )
+    found = [{"temperature_C": t, "excess_deg": 2.0, "standard_error_deg": 0.3} for t in (0.0, 20.0)]
+    cold, warm = run._less_established(found, corrected)
+    assert cold["excess_deg"] == pytest.approx(0.1) and cold["taken_off_deg"] == pytest.approx(1.9)
+    assert warm == found[1] | {"taken_off_deg": 0.0}

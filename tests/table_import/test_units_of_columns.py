@@ -62,6 +62,20 @@ def test_a_unit_that_is_chosen_and_stands_below(tmp_path):
     assert read(tmp_path, BELOW, E_ksi="Wert").table.numbers("E_MPa")[0] == pytest.approx(67568.62147)
 
 
+@pytest.mark.parametrize("name", ["Air voids", "Air voids (%)", "VMA (%)", "VFA"])
+def test_volumes_as_shares_of_one_are_refused(tmp_path, name):
+    """A cell that a spreadsheet shows as 7.0 % holds 0.07, and was read as 0.07 %."""
+    share = {"A": 0.07, "B": 0.081}
+    refused(
+        read,
+        tmp_path,
+        [[*HEADER, name], *([*row, share[row[0]]] for row in ROWS)],
+        names=[name, "0.081 %", "per cent"],
+    )
+    percent = read(tmp_path, [[*HEADER, name], *([*row, 100 * share[row[0]]] for row in ROWS)])
+    assert any(column.endswith("_percent") for column in percent.table.columns)
+
+
 def test_a_unit_that_is_not_said_is_taken_only_if_the_numbers_leave_one(tmp_path):
     names = ["specimen", "Temperatur", "Frequenz", "E (MPa)", "Phasenwinkel"]
     rows = [[s, t, f, e + 10 * f, p] for s, t, f, e, p in [*ROWS, *(("A", 40, f, 3000, 30) for f in (10, 1))]]

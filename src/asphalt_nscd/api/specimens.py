@@ -27,9 +27,9 @@ from asphalt_nscd.packings.incoming import read_packing as read_spheres
 from asphalt_nscd.specimen.contents import DEPOSIT, SPECIMEN
 from asphalt_nscd.specimen.counts import MOST_SPHERES, read_counts
 from asphalt_nscd.specimen.cutting import bonded, specimen_of
-from asphalt_nscd.specimen.given_spheres import require_spheres
+from asphalt_nscd.specimen.given_spheres import overlaps, require_spheres
+from asphalt_nscd.specimen.preparation import layer_statistics, pour_on, unrest
 from asphalt_nscd.specimen.preparation import pour as pour_spheres
-from asphalt_nscd.specimen.preparation import pour_on, unrest
 from asphalt_nscd.specimen.settings import Cutting, Pouring, Surfaces, Vibration
 from asphalt_nscd.specimen.trimming import Specimen as BondedSpheres
 
@@ -169,15 +169,26 @@ class Packing(Spheres):
         columns = dict(zip(("force_x_N", "force_y_N", "force_z_N"), force.T, strict=True))
         return pd.DataFrame({"first": bodies[:, 0], "second": bodies[:, 1], **columns})
 
+    @property
+    def _said(self) -> Mapping[str, Any]:
+        """The attributes; of arrays of one's own, which may come without, what the spheres show."""
+        if {"layer_height_m", "solid_fraction", "coordination", "largest_overlap_m"} <= set(self.attributes):
+            return self.attributes
+        position, radius = (np.ascontiguousarray(x, float) for x in (self.position_m, self.radius_m))
+        length, width, height = (float(side) for side in self.box_m)
+        found = overlaps(position, radius)
+        shown = layer_statistics(position, radius, (length, width, height), found.touching)
+        return {**shown, "largest_overlap_m": found.largest, **self.attributes}
+
     def __repr__(self) -> str:
-        said = self.attributes
+        said = self._said
         return (
             f"Packing({counted(self.radius_m.size, 'sphere')}, {self._radii}, layer "
             f"{1e3 * said['layer_height_m']:.3g} mm high, solid fraction {said['solid_fraction']:.3f})"
         )
 
     def _repr_html_(self) -> str:
-        said, box = self.attributes, 1e3 * self.box_m
+        said, box = self._said, 1e3 * self.box_m
         return sheet(
             f"Packing of {counted(self.radius_m.size, 'sphere')}",
             {

@@ -191,7 +191,9 @@ def conclude(
     ahead += fixed_orders.metal(observed, Costs(), one_sided) if one_sided else []
     content["instructions"] = instructions(diagnosis, ahead=ahead)
     orders = content["instructions"]["orders"]
-    orders += fixed_orders.strains(observed, Costs(), content["excess_phase"])[: MOST - len(orders)]
+    corrected = reported.corrected(diagnosis, observed, mix, record)
+    open_excess = _less_established(content["excess_phase"], corrected)
+    orders += fixed_orders.strains(observed, Costs(), open_excess)[: MOST - len(orders)]
     progress("Diagnose", 5, STEPS)
     standard = reported.standard_values(mix, law)
     content["reported"] = standard.drop(columns=["asked_by", "averaged_over"]).iloc[0].to_dict()
@@ -214,11 +216,22 @@ def conclude(
         diagnosis,
         mix,
         to_report={
-            "corrected": reported.corrected(diagnosis, observed, mix, record),
+            "corrected": corrected,
             "reported": standard,
             "master_curve": reported.master_curve(mix, law=law),
         },
     )
+
+
+def _less_established(excesses: Sequence[dict[str, Any]], corrected: pd.DataFrame) -> list[dict[str, Any]]:
+    """Entries of `excess_phase` less what the correction of the tests takes off: that has its reason."""
+    taken_off = corrected["recorded_phase_deg"] - corrected["phase_deg"]
+    mean = taken_off.groupby(corrected["nominal_temperature_C"]).mean().round(6)
+    return [
+        one | {"excess_deg": one["excess_deg"] - less, "taken_off_deg": less}
+        for one in excesses
+        for less in (mean[one["temperature_C"]],)
+    ]
 
 
 def _begin_with_campaigns(

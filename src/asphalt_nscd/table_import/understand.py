@@ -37,6 +37,7 @@ WORDS_OF = {
     "psi_deg": "phase between force and displacement",
 } | PARTS
 MAY_BE_ABSENT = (*QUALITY, "microstrain", "air_voids_percent", "vma_percent", "vfa_percent")
+LEAST_PERCENT = {"air_voids_percent": 0.3, "vma_percent": 1.0, "vfa_percent": 1.0}  # of a whole campaign
 LARGEST_ANGLE = 360.0  # deg
 FEW = 0.125  # share of the tests that may lack a phase: of more the column is not what it seems
 # Form, the angle that it lacks, the other one that stands there, and whose phase is wanted.
@@ -118,6 +119,7 @@ def understand(cells: Cells, chosen: Mapping[str, str] | None = None, mix: str |
         )
         notes.append(f"|E*| and phase computed from {' and '.join(SAID[name] for name in given)}")
     _require_order(cells, read)
+    _require_percent(cells, read)
     notes.append("decimals written with a " + ("comma" if mark == "," else "point"))
     if note := _specimens(cells, values):
         notes.append(note)
@@ -142,6 +144,17 @@ def _require_order(cells: Cells, read: Mapping[str, Column]) -> None:
             f"{cells.path}: the numbers below {modulus.heading!r} are as phases, and those below {phase.heading!r} as "
             "moduli; exchange the two names."
         )
+
+
+def _require_percent(cells: Cells, read: Mapping[str, Column]) -> None:
+    """Refuse volumes as shares of one, which a spreadsheet holds in cells that it shows in per cent."""
+    for name in LEAST_PERCENT.keys() & read.keys():
+        values = np.asarray(read[name].values, float)
+        if 0.0 < (largest := np.nanmax(values, initial=0.0)) < LEAST_PERCENT[name]:
+            raise InputError(
+                f"{cells.path}: {read[name].source}: {largest:g} % at most is less than any mix has; give per cent, "
+                "not shares of one."
+            )
 
 
 def _own(cells: Cells) -> ParsedTable | None:

@@ -60,7 +60,8 @@ def metal(done: Observations, costs: Costs, one_sided: str) -> Orders:
 def strains(done: Observations, costs: Costs, excesses: Sequence[Mapping[str, Any]]) -> Orders:
     """Order one specimen at two strains by both modes, where cyclic compression has an excess phase.
 
-    `excesses` as in diagnosis.json. Beams oscillate about zero already, so that nothing is left to tell apart by mode.
+    `excesses` as in diagnosis.json, less what is established, which is their `taken_off_deg`. Beams oscillate about
+    zero already, so that nothing is left to tell apart by mode.
     """
     clear = [one for one in excesses if one["excess_deg"] > CLEAR * one["standard_error_deg"]]
     if done.test_type != "tension-compression" or not clear:
@@ -71,10 +72,11 @@ def strains(done: Observations, costs: Costs, excesses: Sequence[Mapping[str, An
         f"test {specimen_named(specimen)} at {at:g} degC and {numbers(STRAINS)} microstrain, by "
         "a haversine and by tension-compression, raw signals kept"
     )
+    less = ", when corrected" * bool(largest.get("taken_off_deg"))
     why = (
-        f"The phase lies {largest['excess_deg']:.1f} deg above what |E*| requires. A reading of drift vanishes in "
-        "tension-compression and does not change with strain. Grains that slip and films that soften stay there; the "
-        "excess of films grows as the strain, that of grains less and less."
+        f"The phase lies {largest['excess_deg']:.1f} deg above what |E*| requires{less}. A reading of drift vanishes "
+        "in tension-compression and does not change with strain. Grains that slip and films that soften stay there; "
+        "the excess of films grows as the strain, that of grains less and less."
     )
     hours = 4.0 * costs.hours(specimen, at, frequencies)  # two strains by two modes
     words = "to see whether reading, grains or films cause the excess phase", [why]
