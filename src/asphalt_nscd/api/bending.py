@@ -53,7 +53,8 @@ class Test(Result):
         profile/velocity_m_s                        (t, l)       mean along the drive by profile/height_m, or NaN
         frames/time_s                               (f,)         from the start of the oscillation
         frames/position_m, frames/radius_m          (n, 3) (n,)  spheres before the test
-        frames/displacement_m, frames/velocity_m_s  (f, n, 3)    of spheres; weight included
+        frames/displacement_m, frames/velocity_m_s  (f, n, 3)    of spheres; with their weight, which a
+                                                                 commanded force tares
         frames/first, frames/second                 (b,)         bodies of a bond; n: head, n + 1: foot
         frames/point_m, frames/area_m2              (b, 3) (b,)  where a bond acts, and on what area
         frames/strength_N                           (b,)         to break it; infinite at head and foot

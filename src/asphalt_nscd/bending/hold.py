@@ -25,7 +25,7 @@ MOST_BROKEN = 0.02  # of the bonds; beyond, the specimen no longer follows its l
 def hold(model: Model, law: Burgers | KelvinChain, held: Hold) -> pd.DataFrame:
     """Hold a force or a displacement of the head from rest, and set the closed form of the law beside.
 
-    The form factor of the test is used; inertia and weight are left out. Each step has time_s, displacement_m,
+    The form factor of the test is used; weight is left out, inertia is not. Each step has time_s, displacement_m,
     force_N; of creep D_1_GPa and D_law_1_GPa, of relaxation E_MPa and E_law_MPa. `attrs`: broken_bonds, residual of
     the full equations, error_at_end against the law by statics; `ended`, empty or why the table is shorter than asked:
     the specimen is in two pieces or, once the full equations go on, more than `MOST_BROKEN` of its bonds broke, or so
