@@ -320,3 +320,11 @@ def test_an_isotherm_is_broken_if_all_specimens_together_say_so():
         share = 0.05 * np.exp(3.0 * evidence) / (0.78 + 0.05 * np.exp(3.0 * evidence))
         assert (share > 0.98) and bool(share > 0.99) is bool(broken)
         assert suspects._broken_temperatures(observed, loo).tolist() == broken
+
+
+def test_a_modulus_off_its_replicates_is_told_in_percent_of_theirs():
+    """ln|E*| 0.36 below is 30 %, and 0.26 above is 30 % too."""
+    observed = SimpleNamespace(cell=np.zeros(3, int))
+    for times in (0.7, 1.3):
+        apart = np.array([[np.log(times), 0.0]] * 3)
+        assert " from 2 replicates by 30.0 %," in suspects._replicate_reason(observed, apart, 0, 0)

@@ -197,6 +197,12 @@ def test_a_quality_limit_that_half_of_a_specimen_s_tests_exceed_is_checked_first
     assert [(limit.label, ", ".join(at)) for limit, at in told] == [("phase uniformity", where)] * bool(where)
 
 
+def test_beside_a_level_that_is_odd_it_is_not_said_that_there_is_no_fault():
+    odd = [{"specimen": "A", "temperature_C": 20.0, "factor": 1.39}]
+    assert row("Fault", odd_levels=odd) == ["None found beside what is to be checked first."]
+    assert row("Check first", odd_levels=odd)[0].startswith("Specimen A at 20 degC: |E*| 1.39 times")
+
+
 def test_what_is_odd_or_contradicts_itself_is_checked_first():
     told = row(
         "Check first",

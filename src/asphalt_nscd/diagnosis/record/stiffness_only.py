@@ -175,7 +175,7 @@ def fit_stiffness(campaign: Campaign) -> StiffnessOnly:
                 "E_MPa": modulus,
                 "reduced_frequency_Hz": frequency * fit.law.shift.factor(temperature),
                 "curve_E_MPa": curve * np.exp(member @ level),
-                "residual_percent": 100.0 * left,
+                "residual_percent": 100.0 * np.expm1(left),
             }
         ),
         campaign.notes,

@@ -372,7 +372,9 @@ def _replicate_reason(observed: Observations, apart: NDArray, row: int, column: 
     """By how much |E*| (`column` 0) or the phase (1) is off its replicates."""
     others = np.count_nonzero(observed.cell == observed.cell[row]) - 1
     size = (
-        f"{100.0 * abs(apart[row, 0]):.1f} %" if column == 0 else f"{np.degrees(abs(apart[row, 1])):.1f} deg"
+        f"{100.0 * abs(np.expm1(apart[row, 0])):.1f} %"
+        if column == 0
+        else f"{np.degrees(abs(apart[row, 1])):.1f} deg"
     )
     what = "|E*|" if column == 0 else "phase"
     replicates = counted(int(others), "replicate")

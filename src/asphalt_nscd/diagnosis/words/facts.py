@@ -198,7 +198,8 @@ def has_fault_of_one_place(content: Content) -> bool:
     """Whether a fault of one specimen, isotherm or frequency was found beside the last fit."""
     keys = ("odd_phases", "odd_temperatures", "contradictory_isotherms")
     told = any("probability" in one for key in keys for one in content[key])
-    return told or content["highest_frequency"] is not None
+    # An odd level has no probability of its own.
+    return told or bool(content["odd_levels"]) or content["highest_frequency"] is not None
 
 
 def odd(content: Content) -> list[str]:
