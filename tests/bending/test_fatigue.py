@@ -40,6 +40,24 @@ def test_largest_strain_is_that_of_the_beam():
     assert largest_strain_at(replace(PAPER, b=0.05)) == largest_strain_at(replace(PAPER, b=PAPER.B)) == 0.0
 
 
+def test_a_blocked_head_strains_a_beam_as_theory_says():
+    """A prism by 3 w / h^2, twice as much as a free one; a trapezoid by the frame of its two ends, as a stiffness."""
+    prism = replace(PAPER, b=PAPER.B)
+    assert largest_strain(prism, "blocked") == pytest.approx(2.0 * largest_strain(prism), rel=1e-6)
+    arm = PAPER.h - (np.arange(20_000) + 0.5) * PAPER.h / 20_000
+    width = PAPER.b + (PAPER.B - PAPER.b) * arm / PAPER.h
+    bend = 12.0 / (PAPER.e * width**3) * PAPER.h / 20_000
+    # displacement and slope of the head by its force and moment
+    force, moment = np.linalg.solve([[bend @ arm**2, bend @ arm], [bend @ arm, bend.sum()]], [1.0, 0.0])
+    strain = np.abs(6.0 * (force * arm + moment) / (PAPER.e * width**2)).max()
+    assert largest_strain(PAPER, "blocked") == pytest.approx(strain, rel=1e-3)
+
+
+def test_a_blocked_head_moves_by_less_for_the_same_strain(beam):
+    free, blocked = (fatigue(beam, 2e-4, LAW, Bonds(head=head)).life() for head in ("free", "blocked"))
+    assert blocked > 0.5 * free
+
+
 def test_life_falls_by_the_power_of_strain_and_bonds_of_plates_do_not_tire(beam):
     one, two = (fatigue(beam, strain, LAW) for strain in (1e-4, 2e-4))
     assert one.life() / two.life() == pytest.approx(2.0**LAW.exponent, rel=1e-6)

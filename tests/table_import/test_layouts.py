@@ -41,6 +41,19 @@ def replicates(label, *, merged=False):
     return [head, [None, None, *(label.format(s) for s in "AB"), *(label.format(s) for s in "AB")], *rows]
 
 
+@pytest.mark.parametrize("other", list("BDEL"))
+def test_a_specimen_may_have_any_letter(tmp_path, other):
+    names = ["E* A (MPa)", f"E* {other} (MPa)", "Phase A (°)", f"Phase {other} (°)"]
+    table = read(tmp_path, [[*KEYS, *names], *flat("", "")[1:]], "t.xlsx")
+    of = dict(zip(SPECIMENS, ("A", other), strict=True))
+    found = zip(
+        *columns(table, "specimen", "temperature_C", "frequency_Hz", "E_MPa", "phase_deg"), strict=True
+    )
+    assert {(s, t, f): (e, p) for s, t, f, e, p in found} == {
+        (of[s], t, f): both for (s, t, f), both in TESTS.items()
+    }
+
+
 def flat(modulus_name, phase_name):
     names = [*KEYS, *(modulus_name.format(n) for n in (1, 2)), *(phase_name.format(n) for n in (1, 2))]
     rows = [

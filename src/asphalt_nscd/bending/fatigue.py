@@ -26,18 +26,31 @@ LAYERS = 20
 MOST_CYCLES = 10_000  # one by one
 
 
-def largest_strain(geometry: Geometry) -> float:
+def largest_strain(geometry: Geometry, head: str = "free") -> float:
     """Largest strain of the faces in bending theory, per displacement of the head [1/m].
 
     The moment F (h - z) over E e w^2 / 6, w the width at z, F = E z0 / gamma by the form factor; EN 12697-24: K_eps.
+    A `head` that is "blocked" bears a moment too, which keeps it from turning.
 
     >>> from asphalt_nscd.measurements.twopoint import PAPER, PAPER_AMPLITUDE
     >>> round(PAPER_AMPLITUDE * largest_strain(PAPER) * 1e6, 1)  # the paper: "less than 50e-6"
     48.6
     """
+    if head == "blocked":
+        return _largest_strain_of_blocked(geometry)
     height = largest_strain_at(geometry)
     width = geometry.B - (geometry.B - geometry.b) * height / geometry.h
     return 6.0 * (geometry.h - height) / (geometry.e * width**2) / geometry.form_factor()
+
+
+def _largest_strain_of_blocked(geometry: Geometry) -> float:
+    arm = np.linspace(geometry.h, 0.0, 2001)  # to the head, of sections from the foot up
+    width = geometry.b + (geometry.B - geometry.b) * arm / geometry.h
+    flexibility = 12.0 / (geometry.e * width**3)  # times E
+    # of a unit force: its moment, less that which leaves the slope of the head zero
+    moment = arm - np.trapezoid(flexibility * arm, arm) / np.trapezoid(flexibility, arm)
+    moved = -np.trapezoid(flexibility * moment * arm, arm)
+    return float(np.abs(6.0 * moment / (geometry.e * width**2)).max() / moved)
 
 
 def largest_strain_at(geometry: Geometry) -> float:
@@ -60,7 +73,7 @@ def fatigue(
     """
     if not STRAINS.holds(strain_amplitude):
         raise InputError(f"strain = {strain_amplitude:g}; give an amplitude as 100e-6, {STRAINS}.")
-    amplitude = strain_amplitude / largest_strain(_trapezoid(specimen))
+    amplitude = strain_amplitude / largest_strain(_trapezoid(specimen), bonds.head)
     return tire(_system(specimen, bonds), specimen.network.length, law.rate, amplitude, FAILURE, jumps)
 
 
@@ -82,7 +95,7 @@ def cycle_by_cycle(
     length, tires = specimen.network.length, np.isfinite(system.strength)
     # no limit of strength: bonds of a fatigue test tire and do not break; which may tire was asked before
     system = replace(system, load=np.zeros_like(system.load), strength=np.full(length.size, np.inf))
-    amplitude = strain_amplitude / largest_strain(geometry)
+    amplitude = strain_amplitude / largest_strain(geometry, bonds.head)
     omega = 2.0 * np.pi * frequency
     time_step = 1.0 / (frequency * STEPS_PER_CYCLE)
     scheme = Scheme.named("fitted", omega * time_step)

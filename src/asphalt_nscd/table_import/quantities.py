@@ -176,7 +176,10 @@ def _quantity(stem: str, known: dict, qualified: bool) -> str | None:
     if alone:
         return alone
     words = [word for word in re.split(r"[\s_/-]+|(?<=\bd)['’]|(?<=\bl)['’]", stem) if word]
-    words = [word for word in words if _folded(word.strip(".:°º")) not in _BESIDE]
+    # `E* D` and `E* E` are of specimens D and E: a capital letter alone is no article, and E no second name.
+    words = [word for word in words if word in ("D", "L") or _folded(word.strip(".:°º")) not in _BESIDE]
+    if words in (["E*", "E"], ["|E*|", "E"]):
+        return None
     # As in `Dynamic modulus |E*|` or `Fréquence / Frequency`, where each part names it: up to each word, by what.
     named: list[set[str]] = [set(known)]
     for end in range(1, len(words) + 1):
