@@ -33,7 +33,7 @@ from asphalt_nscd.files.store import provenance, write_json, write_table
 from fuzz.diagnoses import _own_line
 from fuzz.draws import called, draw, packings
 
-PUBLISHED = 10_000  # calls behind the published table
+PUBLISHED = 10_000  # calls of `make fuzz`; a published table may hold fewer, and says so
 LONGEST = 60  # s of CPU, of one call
 ENDS = ("result", "sentence", "traceback", "no end")
 

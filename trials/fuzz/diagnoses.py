@@ -31,7 +31,7 @@ from asphalt_nscd.files.errors import InputError
 from asphalt_nscd.files.store import provenance, write_json, write_table
 from fuzz import wild
 
-PUBLISHED = 1000  # tables behind the published rates
+PUBLISHED = 1000  # tables of `make fuzz`; published rates may rest on fewer, and say so
 SHORT = 60  # tables with so few tests, and more, are timed apart
 
 
