@@ -55,7 +55,8 @@ class Test(Result):
         frames/position_m, frames/radius_m          (n, 3) (n,)  spheres before the test
         frames/displacement_m, frames/velocity_m_s  (f, n, 3)    of spheres; with their weight, which a
                                                                  commanded force tares
-        frames/first, frames/second                 (b,)         bodies of a bond; n: head, n + 1: foot
+        frames/first, frames/second                 (b,)         bodies of a bond; n and above: plates, as n:
+                                                                 head, n + 1: foot, or of four clamps
         frames/point_m, frames/area_m2              (b, 3) (b,)  where a bond acts, and on what area
         frames/strength_N                           (b,)         to break it; infinite at head and foot
         frames/bond_force_N                         (f, b, 3)    normal, positive in tension; two shear, on the
